@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "measure/instrumented_solver.h"
+
+namespace cairn::bench {
+namespace {
+
+/// Adds the time of its life to a sum.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::chrono::nanoseconds* sum) : sum_(sum) {}
+  ~Stopwatch() { *sum_ += std::chrono::steady_clock::now() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  std::chrono::nanoseconds* sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void InstrumentedSolver::prepareSolve(int num_bodies, int num_manifolds) {
+  if (probe_) {
+    substep_.Begin(num_bodies, num_manifolds);
+    return;
+  }
+  const Stopwatch stopwatch(&time_);
+  solver_->prepareSolve(num_bodies, num_manifolds);
+}
+
+btScalar InstrumentedSolver::solveGroup(btCollisionObject** bodies, int num_bodies,
+                                        btPersistentManifold** manifolds, int num_manifolds,
+                                        btTypedConstraint** joints, int num_joints,
+                                        const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
+                                        btDispatcher* dispatcher) {
+  if (probe_) {
+    substep_.Add({.bodies = {bodies, bodies + num_bodies},
+                  .manifolds = {manifolds, manifolds + num_manifolds},
+                  .joints = {joints, joints + num_joints}},
+                 dispatcher);
+    return 0;
+  }
+  const Stopwatch stopwatch(&time_);
+  return solver_->solveGroup(bodies, num_bodies, manifolds, num_manifolds, joints, num_joints, info,
+                             debug_drawer, dispatcher);
+}
+
+void InstrumentedSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
+  if (probe_) {
+    substep_.Capture();
+    std::exchange(probe_, nullptr)(&substep_, info);
+    substep_.Restore();
+    const Stopwatch stopwatch(&time_);
+    substep_.SolveWith(solver_, info, debug_drawer);
+    return;
+  }
+  const Stopwatch stopwatch(&time_);
+  solver_->allSolved(info, debug_drawer);
+}
+
+}  // namespace cairn::bench

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <vector>
+
+namespace cairn::bench {
+
+/// What a world hands its solver in one substep, kept so that several solvers can be given the very
+/// same state one after the other.
+class Substep {
+ public:
+  struct Group {
+    std::vector<btCollisionObject*> bodies;
+    std::vector<btPersistentManifold*> manifolds;
+    std::vector<btTypedConstraint*> joints;
+  };
+
+  void Begin(int num_bodies, int num_manifolds);
+  void Add(Group group, btDispatcher* dispatcher);
+
+  /// Remembers everything a solver may write: velocities, transforms, impulses of contact points
+  /// and joints, joints that break.
+  void Capture();
+  /// Brings it back.
+  void Restore() const;
+
+  /// Hands the groups to a solver as the world would.
+  void SolveWith(btConstraintSolver* solver, const btContactSolverInfo& info,
+                 btIDebugDraw* debug_drawer) const;
+
+  /// Every rigid body a solver may change, in the order of the groups, each once.
+  const std::vector<btRigidBody*>& bodies() const { return bodies_; }
+
+ private:
+  struct BodyState {
+    btTransform transform;
+    btVector3 linear, angular;
+  };
+  struct JointState {
+    bool enabled;
+    btScalar applied_impulse;
+    btJointFeedback feedback;
+  };
+
+  void CollectBodies();
+
+  int num_bodies_ = 0, num_manifolds_ = 0;
+  btDispatcher* dispatcher_ = nullptr;
+  std::vector<Group> groups_;
+  std::vector<btRigidBody*> bodies_;
+  std::vector<BodyState> body_states_;
+  std::vector<btManifoldPoint> points_;  ///< of all manifolds of all groups, in order
+  std::vector<JointState> joint_states_;
+};
+
+}  // namespace cairn::bench

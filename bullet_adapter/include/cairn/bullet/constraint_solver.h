@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
+
+#include <memory>
+
+#include "cairn/bullet/precision.h"
+#include "cairn/report.h"
+#include "cairn/settings.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// Drop-in for btSequentialImpulseConstraintSolver: pass it to a btDiscreteDynamicsWorld, which
+/// does not own it.
+///
+/// Bullet sets up the rows and writes back the results, Cairn solves in between. All islands of a
+/// substep are solved as one problem, with one budget.
+///
+/// Without a budget (the default) each substep makes btContactSolverInfo::m_numIterations sweeps,
+/// with a subspace step among them where it is predicted to pay; Settings::max_sweeps and
+/// Settings::tolerance are not used, m_leastSquaresResidualThreshold is, and per-joint iteration
+/// overrides are honoured. With Settings::k_sm = 0 this is Bullet's own iteration.
+///
+/// With a budget, m_numIterations and overrides are not used: the solver goes on until
+/// Settings::tolerance, Settings::max_sweeps or the budget. A Budget::Time is for the whole
+/// substep, Bullet's set-up and write-back included.
+///
+/// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration; report() says
+/// so. SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in Bullet's unshuffled order.
+///
+/// Not thread safe, like its base: one solver per world.
+class ConstraintSolver : public btSequentialImpulseConstraintSolver {
+ public:
+  explicit ConstraintSolver(const Settings& settings = {});
+  ~ConstraintSolver() override;
+
+  Settings& settings();
+  /// Of the last substep; of the last group where the caller does not bracket groups with
+  /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
+  const Report& report() const;
+
+  void prepareSolve(int bodies, int manifolds) override;
+  btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,
+                      int num_manifolds, btTypedConstraint** constraints, int num_constraints,
+                      const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
+                      btDispatcher* dispatcher) override;
+  void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override;
+  /// Forgets everything learnt in earlier substeps.
+  void reset() override;
+
+ protected:
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int num_bodies,
+                                             btPersistentManifold** manifolds, int num_manifolds,
+                                             btTypedConstraint** constraints, int num_constraints,
+                                             const btContactSolverInfo& info,
+                                             btIDebugDraw* debug_drawer) override;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;  // no member may ask for more than 16 bytes of alignment: the base
+                                // class brings an operator new that does not give more
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/bullet/constraint_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "cairn/bullet/group_rows.h"
+#include "cairn/solver.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Iteration settings of one group: what the user asked for, and what Bullet's info says.
+Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max_override) {
+  Settings settings = user;
+  const bool plain = user.k_sm == 0 || user.method != Method::kPgsSm;
+  if (plain) settings.lifted_friction = LiftedFriction::kHold;
+  if (user.budget.kind() == Budget::Kind::kUnlimited) {
+    settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
+    settings.tolerance = 0;
+    settings.min_progress = std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
+  }
+  return settings;
+}
+
+template <class T>
+T* Data(btAlignedObjectArray<T>* array) {
+  return array->size() > 0 ? &(*array)[0] : nullptr;
+}
+
+template <class T>
+void Append(T* values, int count, btAlignedObjectArray<T>* array) {
+  for (int i = 0; i < count; ++i) array->push_back(values[i]);
+}
+
+}  // namespace
+
+struct ConstraintSolver::Impl {
+  Settings settings;
+  Solver solver;
+  GroupRows rows;
+  Report report;
+
+  /// Groups between prepareSolve() and allSolved(), to be solved as one.
+  bool collecting = false;
+  btAlignedObjectArray<btCollisionObject*> bodies;
+  btAlignedObjectArray<btPersistentManifold*> manifolds;
+  btAlignedObjectArray<btTypedConstraint*> constraints;
+  btDispatcher* dispatcher = nullptr;
+
+  /// What of a Budget::Time is not for the iteration.
+  Clock::time_point start, iterated;
+  std::chrono::nanoseconds finish_time{0};
+};
+
+ConstraintSolver::ConstraintSolver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
+  impl_->settings = settings;
+}
+
+ConstraintSolver::~ConstraintSolver() = default;
+
+Settings& ConstraintSolver::settings() { return impl_->settings; }
+
+const Report& ConstraintSolver::report() const { return impl_->report; }
+
+void ConstraintSolver::prepareSolve(int, int) {
+  impl_->collecting = true;
+  impl_->bodies.resize(0);
+  impl_->manifolds.resize(0);
+  impl_->constraints.resize(0);
+}
+
+btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies,
+                                      btPersistentManifold** manifolds, int num_manifolds,
+                                      btTypedConstraint** constraints, int num_constraints,
+                                      const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
+                                      btDispatcher* dispatcher) {
+  if (impl_->collecting) {
+    Append(bodies, num_bodies, &impl_->bodies);
+    Append(manifolds, num_manifolds, &impl_->manifolds);
+    Append(constraints, num_constraints, &impl_->constraints);
+    impl_->dispatcher = dispatcher;
+    return 0;
+  }
+  impl_->start = impl_->iterated = Clock::now();
+  const btScalar result = btSequentialImpulseConstraintSolver::solveGroup(
+      bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
+      debug_drawer, dispatcher);
+  impl_->finish_time = Clock::now() - impl_->iterated;
+  return result;
+}
+
+void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
+  impl_->collecting = false;
+  solveGroup(Data(&impl_->bodies), impl_->bodies.size(), Data(&impl_->manifolds),
+             impl_->manifolds.size(), Data(&impl_->constraints), impl_->constraints.size(), info,
+             debug_drawer, impl_->dispatcher);
+}
+
+void ConstraintSolver::reset() {
+  btSequentialImpulseConstraintSolver::reset();
+  impl_->solver.Reset();
+  impl_->finish_time = {};
+  impl_->report = {};
+}
+
+btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
+    btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds, int num_manifolds,
+    btTypedConstraint** constraints, int num_constraints, const btContactSolverInfo& info,
+    btIDebugDraw* debug_drawer) {
+  const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
+                       &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
+                       &m_tmpSolverContactRollingFrictionConstraintPool};
+  const bool unlimited = impl_->settings.budget.kind() == Budget::Kind::kUnlimited;
+  impl_->rows.Read(pools, info, unlimited ? SweepLimits::kBullet : SweepLimits::kNone);
+
+  Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
+  if (settings.budget.kind() == Budget::Kind::kTime && settings.budget.valid()) {
+    const std::chrono::nanoseconds left =
+        settings.budget.time() - (Clock::now() - impl_->start) - impl_->finish_time;
+    settings.budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
+  }
+  impl_->solver.settings() = settings;
+  impl_->report =
+      impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities());
+  impl_->iterated = Clock::now();
+  if (!impl_->report.ok()) {
+    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
+        bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
+        debug_drawer);
+  }
+  impl_->rows.Write(pools);
+  solveGroupCacheFriendlySplitImpulseIterations(bodies, num_bodies, manifolds, num_manifolds,
+                                                constraints, num_constraints, info, debug_drawer);
+
+  m_leastSquaresResidual = static_cast<btScalar>(std::pow(impl_->report.residual_max, 2));
+  m_analyticsData.m_numSolverCalls++;
+  m_analyticsData.m_numIterationsUsed = impl_->report.sweeps;
+  m_analyticsData.m_islandId = num_bodies > 0 ? bodies[0]->getCompanionId() : -2;
+  m_analyticsData.m_numBodies = num_bodies;
+  m_analyticsData.m_numContactManifolds = num_manifolds;
+  m_analyticsData.m_remainingLeastSquaresResidual = m_leastSquaresResidual;
+  return 0;
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

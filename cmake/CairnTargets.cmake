@@ -1,0 +1,55 @@
+# What the targets of the project are built with.
+
+# The root of the sources as an include path: "simd/target.h", "bench/scenes/...". Never installed.
+add_library(cairn_source_root INTERFACE)
+target_include_directories(cairn_source_root INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+
+# Warnings, no fused multiply-add behind our back (results must not depend on the target), sanitizers.
+function(cairn_strict target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
+                                           $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
+  if(CAIRN_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${CAIRN_SANITIZE} -fno-sanitize-recover=all
+                                             -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${CAIRN_SANITIZE})
+  endif()
+endfunction()
+
+# A library of the product: cairn_library(target alias sources...) makes <target>, cairn::<alias> and the
+# file libcairn or libcairn-<alias>.
+function(cairn_library target alias)
+  add_library(${target} ${ARGN})
+  add_library(cairn::${alias} ALIAS ${target})
+  set(file cairn-${alias})
+  if(alias STREQUAL "cairn")
+    set(file cairn)
+  endif()
+  set_target_properties(${target} PROPERTIES
+    EXPORT_NAME ${alias} OUTPUT_NAME ${file} POSITION_INDEPENDENT_CODE ON
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    INSTALL_RPATH "$ORIGIN")
+  cairn_strict(${target})
+endfunction()
+
+# Builds a target against Bullet in one precision (float or float64). Everything that links the target
+# does so too: a target that would get both precisions is refused when CMake generates.
+function(cairn_bullet_precision target precision)
+  if(precision STREQUAL "float")
+    target_link_libraries(${target} PUBLIC cairn::bullet3)
+  elseif(precision STREQUAL "float64")
+    target_link_libraries(${target} PUBLIC cairn::bullet3-float64)
+  else()
+    message(FATAL_ERROR "cairn_bullet_precision(${target} ${precision}): float or float64")
+  endif()
+endfunction()
+
+# A program that users start: <build>/bin/<name>, installed as <prefix>/bin/<name>.
+function(cairn_program target name)
+  add_executable(${target} ${ARGN})
+  set_target_properties(${target} PROPERTIES
+    OUTPUT_NAME ${name} RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin
+    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  cairn_strict(${target})
+  set_property(GLOBAL APPEND PROPERTY CAIRN_PROGRAMS ${target})
+endfunction()

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace cairn {
+
+/// What one Solve() may cost. The state is a valid, feasible answer after every block of rows, so
+/// a budget decides how good the answer is, never whether there is one.
+class Budget {
+ public:
+  enum class Kind { kUnlimited, kTime, kWork };
+
+  /// No limit: Settings::tolerance and Settings::max_sweeps decide.
+  static constexpr Budget Unlimited() { return Budget(Kind::kUnlimited, 0); }
+
+  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read every 256 rows; a
+  /// subspace step starts only if its predicted cost and the sweeps after it fit. Results depend on
+  /// the machine: Report::work says how much was done.
+  static constexpr Budget Time(std::chrono::nanoseconds limit) {
+    return Budget(Kind::kTime, limit.count());
+  }
+
+  /// The deterministic twin: work units, >= 0; 1 unit = 1 row relaxation. Residuals and subspace
+  /// steps are charged from counts alone, and the clock is never read.
+  static constexpr Budget Work(std::int64_t units) { return Budget(Kind::kWork, units); }
+
+  constexpr Kind kind() const { return kind_; }
+  /// @pre kind() == Kind::kTime
+  constexpr std::chrono::nanoseconds time() const { return std::chrono::nanoseconds(amount_); }
+  /// @pre kind() == Kind::kWork
+  constexpr std::int64_t work() const { return amount_; }
+  /// False for a negative time or amount of work.
+  constexpr bool valid() const { return amount_ >= 0; }
+
+  friend constexpr bool operator==(const Budget&, const Budget&) = default;
+
+ private:
+  constexpr Budget(Kind kind, std::int64_t amount) : kind_(kind), amount_(amount) {}
+
+  Kind kind_;
+  std::int64_t amount_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace cairn {
+
+/// Whether the input could be used. All but kOk leave every output untouched.
+enum class Status {
+  kOk,
+  kBadSettings,   ///< A field of Settings is out of its range.
+  kEmptyProblem,  ///< No bodies.
+  kWrongSize,     ///< A span of results does not have one entry per row or body.
+  kNotFinite,     ///< NaN, or infinity anywhere but in a bound.
+  kBadMass,     ///< Negative inverse mass, or inverse inertia not symmetric positive semidefinite.
+  kNoSuchBody,  ///< A row names a body that is not there, or the same body twice.
+  kBadBounds,   ///< lo > hi.
+  kBadCompliance,  ///< Negative compliance, or relaxation outside (0, 2).
+  kBadParent,      ///< The parent of a friction row comes later, is itself a friction row, or
+                   ///< joins other bodies.
+  kBadFriction,    ///< Negative friction coefficient.
+};
+
+/// One sentence for people, without a full stop.
+std::string_view Describe(Status status);
+
+/// Why the iteration ended.
+enum class StopReason {
+  kNotStarted,  ///< The input was refused.
+  kConverged,   ///< Residual <= Settings::tolerance.
+  kStationary,  ///< A sweep moved no row by more than Settings::min_progress.
+  kSweepLimit,  ///< Settings::max_sweeps done.
+  kTimeSpent,   ///< Budget::Time reached.
+  kWorkSpent,   ///< Budget::Work reached.
+};
+
+std::string_view Describe(StopReason reason);
+
+/// How far impulses are from the solution, measured by the natural map
+///   e_i = d_i |x_i - clamp(x_i - w_i / d_i, lo_i, hi_i)|,   d_i = J_i M^-1 J_i' + E_i,
+/// with the bounds of friction rows taken from the present impulse of their parent.
+struct Residual {
+  double max = 0;          ///< Largest e_i of the rows that act on points [m/s].
+  double max_angular = 0;  ///< Largest e_i of the rows that only turn [rad/s].
+  double energy = 0;       ///< sqrt(sum e_i^2 / d_i) [sqrt(J)].
+};
+
+/// What was done on one island: bodies connected by rows, world excluded.
+struct IslandReport {
+  int first_body = -1;  ///< Lowest index of its bodies in the problem.
+  int bodies = 0;
+  int rows = 0;
+  Residual residual;
+  int sweeps = 0;
+  int factorisations = 0;
+  int steps_accepted = 0;  ///< Subspace steps kept.
+  int steps_restored = 0;  ///< Subspace steps undone, because the sweeps after them ended worse.
+  StopReason stop = StopReason::kNotStarted;
+};
+
+/// What was done, and how good the result is.
+struct [[nodiscard]] Report {
+  Status status = Status::kOk;
+  int bad_row = -1;   ///< First row refused, -1 if the problem is not a row.
+  int bad_body = -1;  ///< First body refused, -1 likewise.
+
+  double residual_max = 0;      ///< Residual::max over all islands [m/s].
+  double residual_angular = 0;  ///< Residual::max_angular over all islands [rad/s].
+  double residual_energy = 0;   ///< Residual::energy over all islands [sqrt(J)].
+  int sweeps = 0;               ///< Most sweeps made on one island.
+  int factorisations = 0;       ///< Sum over islands, like the two below.
+  int steps_accepted = 0;
+  int steps_restored = 0;
+  StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
+                                              ///< any island before a sweep limit before the rest.
+  std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
+  std::chrono::nanoseconds elapsed{0};  ///< 0 unless the budget is a time.
+  std::vector<IslandReport> islands;
+
+  bool ok() const { return status == Status::kOk; }
+};
+
+}  // namespace cairn

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cairn/budget.h"
+
+namespace cairn {
+
+/// How the iterations are made.
+enum class Method {
+  kPgs,    ///< Projected Gauss-Seidel: sweeps only.
+  kPsor,   ///< The same with over-relaxation Settings::omega.
+  kPgsSm,  ///< Sweeps and subspace minimisation steps.
+};
+
+/// When a subspace step is taken (Method::kPgsSm with k_sm > 0 only).
+enum class StepPolicy {
+  kMeasured,  ///< Where it is predicted to pay, and no longer where it was measured not to.
+  kAlways,    ///< After every k_gs sweeps that may be followed by k_gs more, at any cost.
+};
+
+/// What a friction row does while its parent row pushes with nothing.
+enum class LiftedFriction {
+  kRelease,  ///< Its impulse is zero, as Coulomb says.
+  kHold,     ///< It keeps its last impulse, as Bullet's sequential impulses do.
+};
+
+/// How hard to try. Plain data; Solve() rejects values out of range (Status::kBadSettings).
+struct Settings {
+  Method method = Method::kPgsSm;
+
+  /// Sweeps before each subspace step, and again after it, >= 1. Five are enough to smooth what the
+  /// step leaves behind; two are not.
+  int k_gs = 5;
+  /// Factorisations in one subspace step at most, >= 0: one, and one more for each pass that
+  /// removes rows which left their bounds. 0 makes every method plain sweeps.
+  int k_sm = 2;
+  /// Sweeps in one Solve() at most, >= 0.
+  int max_sweeps = 1000;
+  /// Solve() is done when no row is further from its law than this: natural residual, in [m/s] for
+  /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never.
+  double tolerance = 1e-3;
+  /// Solve() is also done when a whole sweep moved no row by more than this, [m/s] or [rad/s],
+  /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration.
+  double min_progress = 0;
+  Budget budget = Budget::Unlimited();
+  /// Threads that may work on one Solve(). This version sweeps on the calling thread: only 1.
+  int threads = 1;
+
+  /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
+  double omega = 1;
+  LiftedFriction lifted_friction = LiftedFriction::kRelease;
+
+  StepPolicy step_policy = StepPolicy::kMeasured;
+  /// Proximal term of a subspace step on rows with bounds, relative to the diagonal of the row,
+  /// in [1e-8, 1]. Contacts of a face are redundant and disagree by millimetres: smaller values
+  /// make the step fit that disagreement, larger ones leave more of the slow error behind. The
+  /// solver raises it on an island where a step was rejected, and lowers it again to this floor.
+  double proximal = 3e-3;
+  /// The same on rows without bounds (joints), in [1e-12, 1].
+  double proximal_joints = 1e-8;
+  /// Solves with each factor, >= 1. The second and later ones refine the first.
+  int refinements = 1;
+};
+
+}  // namespace cairn

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "cairn/contact_problem.h"
+#include "cairn/report.h"
+#include "cairn/settings.h"
+
+namespace cairn {
+
+/// Projected Gauss-Seidel with subspace minimisation, after [1] (contact_problem.h). Our
+/// differences from the paper: the reduced system is solved in body space with a proximal term,
+/// friction is part of it, sweeps follow each step, and a step that does not pay is undone.
+///
+/// Different solvers may run at the same time, one solver may not. It keeps what it learnt about an
+/// island from frame to frame (see Body::id), never the problem.
+class Solver {
+ public:
+  explicit Solver(const Settings& settings = {});
+  ~Solver();
+  Solver(Solver&&) noexcept;
+  Solver& operator=(Solver&&) noexcept;
+
+  Settings& settings();
+  const Settings& settings() const;
+
+  /// Solves one time step.
+  /// @param[in,out] impulses  one per row [N s]: the start (a warm start, or zeros; brought inside
+  ///                          the bounds first) and the result.
+  /// @param[out] velocities   one per body: velocities at the end of the step.
+  /// Bad input: Report::status says what, Report::bad_row or bad_body where, nothing is written.
+  [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
+                             std::span<Velocity> velocities);
+
+  /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
+  void Reset();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cairn

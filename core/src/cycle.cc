@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "cycle.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pgs/row_sweep.h"
+#include "residual.h"
+#include "subspace/step.h"
+
+namespace cairn {
+namespace {
+
+/// Rows between two looks at the budget: about 5 us.
+constexpr int kBlockRows = 256;
+/// A residual costs about half a sweep.
+constexpr double kMeasureSweeps = 0.5;
+/// Fewer sweeps after a step do not smooth what it leaves behind.
+constexpr int kLeastSweepsAfterStep = 3;
+/// A step that brought the residual down to this share is kept without trying sweeps alone.
+constexpr double kSureGain = 0.1;
+
+double Largest(const Residual& residual) { return std::max(residual.max, residual.max_angular); }
+
+}  // namespace
+
+IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Settings& settings,
+                         IslandMemory* memory)
+    : island_(island), settings_(settings), memory_(memory), at_{.state = std::move(start)} {
+  if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
+}
+
+void IslandCycle::Advance(BudgetMeter* meter) {
+  if (meter->spent()) return Stop(meter->stop_reason());
+  const bool stepped = std::exchange(step_next_, false);
+  if (stepped) {
+    StepLeg(meter);
+  } else {
+    Sweeps(SweepsOfLeg(), meter);
+  }
+  if (done()) return;
+  if (at_.sweeps >= settings_.max_sweeps) return Stop(StopReason::kSweepLimit);
+
+  const bool may_step = !stepped && StepsLeft();
+  if (may_step || settings_.tolerance > 0) {
+    residual_ = MeasureNow(meter);
+    if (Largest(residual_) <= settings_.tolerance) return Stop(StopReason::kConverged);
+  }
+  step_next_ = may_step && StepPays(*meter);
+}
+
+int IslandCycle::SweepsOfLeg() const {
+  return std::min(settings_.k_gs, settings_.max_sweeps - at_.sweeps);
+}
+
+Residual IslandCycle::MeasureNow(BudgetMeter* meter) const {
+  const Residual residual = MeasureResidual(island_, at_.state);
+  meter->Charge(WorkKind::kSweep, kMeasureSweeps * units_per_sweep());
+  return residual;
+}
+
+bool IslandCycle::SweepOnce(BudgetMeter* meter) {
+  const int rows = static_cast<int>(island_.rows.size());
+  double moved = 0;
+  for (int begin = 0; begin < rows; begin += kBlockRows) {
+    if (meter->spent()) {
+      Stop(meter->stop_reason());
+      return false;
+    }
+    const int end = std::min(begin + kBlockRows, rows);
+    moved = std::max(
+        moved, SweepRows(island_, {begin, end, at_.sweeps}, settings_.lifted_friction, &at_.state));
+    meter->Charge(WorkKind::kSweep, end - begin);
+  }
+  ++at_.sweeps;
+  if (moved <= settings_.min_progress) Stop(StopReason::kStationary);
+  return !done();
+}
+
+void IslandCycle::Sweeps(int count, BudgetMeter* meter) {
+  for (int k = 0; k < count; ++k) {
+    if (!SweepOnce(meter)) return;
+  }
+}
+
+bool IslandCycle::StepsLeft() const {
+  const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
+  const int sweeps_left = settings_.max_sweeps - at_.sweeps;
+  return asked && island_.bodies > 0 &&
+         sweeps_left >= std::min(settings_.k_gs, kLeastSweepsAfterStep);
+}
+
+bool IslandCycle::StepPays(const BudgetMeter& meter) {
+  // after the step, its sweeps, and as many without it, which it has to beat
+  const double sweeps = 2 * (SweepsOfLeg() + kMeasureSweeps);
+  return memory_->StepPays(island_, settings_, meter, sweeps * units_per_sweep());
+}
+
+void IslandCycle::StepLeg(BudgetMeter* meter) {
+  const Point before = at_;
+  const StepSettings step = memory_->Step(settings_);
+  const StepResult result = TakeStep(island_, step, &memory_->system(), &at_.state);
+  report_.factorisations += result.factorisations;
+  meter->Charge(WorkKind::kStep, memory_->Cost(island_, settings_, result.factorisations));
+
+  // judged after sweeps: before them, nearly every good step looks worse
+  Sweeps(SweepsOfLeg(), meter);
+  if (result.solved && KeepBetter(before, meter)) {
+    memory_->Accepted();
+    ++report_.steps_accepted;
+  } else {
+    memory_->Restored();
+    ++report_.steps_restored;
+  }
+}
+
+bool IslandCycle::KeepBetter(Point before, BudgetMeter* meter) {
+  const Residual with_step = MeasureNow(meter);
+  if (with_step.energy <= kSureGain * residual_.energy) return true;
+
+  // the same number of sweeps without the step, as far as the budget goes
+  Point stepped = std::exchange(at_, std::move(before));
+  Sweeps(stepped.sweeps - at_.sweeps, meter);
+  if (with_step.energy > MeasureNow(meter).energy) return false;
+  at_ = std::move(stepped);
+  return true;
+}
+
+IslandReport IslandCycle::Finish() {
+  report_.bodies = island_.bodies;
+  report_.rows = static_cast<int>(island_.rows.size());
+  report_.sweeps = at_.sweeps;
+  report_.stop = at_.stop;
+  report_.residual = MeasureResidual(island_, at_.state);
+  return report_;
+}
+
+}  // namespace cairn

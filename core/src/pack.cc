@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "pack.h"
+
+#include <cmath>
+
+#include "validate.h"
+
+namespace cairn {
+
+Packer::Packer(const ContactProblem& problem, const Settings& settings)
+    : problem_(problem),
+      omega_(settings.method == Method::kPsor ? settings.omega : 1.0),
+      roots_(problem.bodies.size()),
+      free_(problem.bodies.size()),
+      local_(problem.bodies.size(), 0),
+      local_row_(problem.rows.size(), kNoRow) {
+  for (size_t i = 0; i < problem.bodies.size(); ++i) {
+    const Body& body = problem.bodies[i];
+    const Eigen::Vector3d inv_mass = body.inv_mass * body.linear_factor;
+    roots_[i].linear = inv_mass.cwiseSqrt();
+    FactorInertia(body.inv_inertia, &roots_[i].angular);
+    free_[i].linear = body.velocity.linear + inv_mass.cwiseProduct(body.impulse);
+    free_[i].angular = body.velocity.angular + body.inv_inertia * body.angular_impulse;
+  }
+}
+
+Vector6 Packer::Whiten(int body, const Eigen::Vector3d& linear,
+                       const Eigen::Vector3d& angular) const {
+  Vector6 g{};
+  if (body == kWorld) return g;
+  const Root& root = roots_[body];
+  Eigen::Map<Eigen::Vector3d>(g.data()) = root.linear.cwiseProduct(linear);
+  Eigen::Map<Eigen::Vector3d>(g.data() + 3) = root.angular.transpose() * angular;
+  return g;
+}
+
+PackedRow Packer::PackRow(const Row& row) const {
+  PackedRow packed;
+  packed.g_a = Whiten(row.body_a, row.linear_a, row.angular_a);
+  packed.g_b = Whiten(row.body_b, row.linear_b, row.angular_b);
+  packed.a = row.body_a == kWorld ? 0 : local_[row.body_a];
+  packed.b = row.body_b == kWorld ? 0 : local_[row.body_b];
+
+  packed.target = row.target;
+  const auto subtract = [&](int body, const Eigen::Vector3d& j_v, const Eigen::Vector3d& j_w) {
+    if (body == kWorld) return;
+    packed.target -= j_v.dot(free_[body].linear) + j_w.dot(free_[body].angular);
+  };
+  subtract(row.body_a, row.linear_a, row.angular_a);
+  subtract(row.body_b, row.linear_b, row.angular_b);
+
+  packed.compliance = row.compliance;
+  packed.diagonal = Dot(packed.g_a, packed.g_a) + Dot(packed.g_b, packed.g_b) + row.compliance;
+  packed.step = packed.diagonal > 0 ? omega_ * row.relaxation / packed.diagonal : 0;
+  packed.lo = row.lo;
+  packed.hi = row.hi;
+  packed.friction = row.friction;
+  packed.parent = row.parent == kNoRow ? kNoRow : local_row_[row.parent];
+  packed.max_sweeps = row.max_sweeps;
+  packed.angular = row.linear_a.isZero(0) && row.linear_b.isZero(0);
+  return packed;
+}
+
+PackedIsland Packer::Pack(const Island& island) const {
+  PackedIsland packed;
+  packed.bodies = static_cast<int>(island.bodies.size());
+  for (int i = 0; i < packed.bodies; ++i) local_[island.bodies[i]] = i + 1;
+  for (int i = 0; i < static_cast<int>(island.rows.size()); ++i) local_row_[island.rows[i]] = i;
+
+  packed.rows.reserve(island.rows.size());
+  for (int row : island.rows) packed.rows.push_back(PackRow(problem_.rows[row]));
+  return packed;
+}
+
+IslandState Packer::Start(const PackedIsland& packed, const Island& island,
+                          std::span<const double> impulses) {
+  IslandState state;
+  state.x.resize(packed.rows.size());
+  for (size_t i = 0; i < packed.rows.size(); ++i) {
+    state.x[i] = Clamp(impulses[island.rows[i]], BoundsOf(packed.rows[i], state.x));
+  }
+  state.u.resize(packed.bodies + 1);
+  RecomputeVelocities(packed, &state);
+  return state;
+}
+
+void Packer::WriteFreeVelocities(std::span<Velocity> velocities) const {
+  for (size_t i = 0; i < free_.size(); ++i) velocities[i] = free_[i];
+}
+
+void Packer::AddVelocities(const Island& island, const IslandState& state,
+                           std::span<Velocity> velocities) const {
+  for (size_t i = 0; i < island.bodies.size(); ++i) {
+    const int body = island.bodies[i];
+    const Root& root = roots_[body];
+    const Vector6& u = state.u[i + 1];
+    velocities[body].linear +=
+        root.linear.cwiseProduct(Eigen::Map<const Eigen::Vector3d>(u.data()));
+    velocities[body].angular += root.angular * Eigen::Map<const Eigen::Vector3d>(u.data() + 3);
+  }
+}
+
+void RecomputeVelocities(const PackedIsland& island, IslandState* state) {
+  for (Vector6& u : state->u) u.fill(0);
+  for (size_t i = 0; i < island.rows.size(); ++i) {
+    const PackedRow& row = island.rows[i];
+    AddScaled(row.g_a, state->x[i], &state->u[row.a]);
+    AddScaled(row.g_b, state->x[i], &state->u[row.b]);
+  }
+}
+
+}  // namespace cairn

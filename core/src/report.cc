@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/report.h"
+
+namespace cairn {
+
+std::string_view Describe(Status status) {
+  switch (status) {
+    case Status::kOk:
+      return "solved as far as the budget and the sweep limit allow";
+    case Status::kBadSettings:
+      return "a setting is out of its range";
+    case Status::kEmptyProblem:
+      return "the problem has no bodies";
+    case Status::kWrongSize:
+      return "the results do not have one entry per row and one per body";
+    case Status::kNotFinite:
+      return "a number is NaN, or infinite and not a bound";
+    case Status::kBadMass:
+      return "an inverse mass is negative, or an inverse inertia is not symmetric positive "
+             "semidefinite";
+    case Status::kNoSuchBody:
+      return "a row names a body that is not there, or the same body twice";
+    case Status::kBadBounds:
+      return "the lower bound of a row is above its upper bound, or a friction row may not be zero";
+    case Status::kBadCompliance:
+      return "a compliance is negative, or a relaxation is outside (0, 2)";
+    case Status::kBadParent:
+      return "the parent of a friction row is not an earlier row of the same two bodies with "
+             "bounds of "
+             "its own";
+    case Status::kBadFriction:
+      return "a friction coefficient is negative";
+  }
+  return "unknown status";
+}
+
+std::string_view Describe(StopReason reason) {
+  switch (reason) {
+    case StopReason::kNotStarted:
+      return "not started";
+    case StopReason::kConverged:
+      return "converged";
+    case StopReason::kStationary:
+      return "stationary";
+    case StopReason::kSweepLimit:
+      return "sweep limit";
+    case StopReason::kTimeSpent:
+      return "time spent";
+    case StopReason::kWorkSpent:
+      return "work spent";
+  }
+  return "unknown reason";
+}
+
+}  // namespace cairn

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/solver.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "budget.h"
+#include "cycle.h"
+#include "islands.h"
+#include "pack.h"
+#include "residual.h"
+#include "subspace/policy.h"
+#include "validate.h"
+
+namespace cairn {
+namespace {
+
+/// Frames an island may be absent before what was learnt about it is dropped.
+constexpr int kForgetAfter = 120;
+
+/// Which of two reasons says more about why the whole did not get further.
+StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
+
+}  // namespace
+
+struct Solver::Impl {
+  struct Remembered {
+    IslandMemory memory;
+    int last_frame = 0;
+  };
+
+  IslandMemory* Recall(const ContactProblem& problem, const Island& island);
+  void Forget();
+
+  Settings settings;
+  std::unordered_map<std::uint64_t, Remembered> memories;
+  WorkPrices prices;
+  int frame = 0;
+};
+
+IslandMemory* Solver::Impl::Recall(const ContactProblem& problem, const Island& island) {
+  // without names from the caller, the position of the first body has to do
+  std::uint64_t key = ~std::uint64_t{0};
+  for (int body : island.bodies) {
+    const std::uint64_t id = problem.bodies[body].id;
+    key = std::min(key, id != 0 ? id : static_cast<std::uint64_t>(body) + 1);
+  }
+  Remembered& remembered = memories[key];
+  remembered.last_frame = frame;
+  return &remembered.memory;
+}
+
+void Solver::Impl::Forget() {
+  std::erase_if(memories, [this](const auto& entry) {
+    return entry.second.last_frame < frame - kForgetAfter;
+  });
+}
+
+Solver::Solver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
+  impl_->settings = settings;
+}
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+Settings& Solver::settings() { return impl_->settings; }
+const Settings& Solver::settings() const { return impl_->settings; }
+
+void Solver::Reset() {
+  const Settings settings = impl_->settings;
+  impl_ = std::make_unique<Impl>();
+  impl_->settings = settings;
+}
+
+Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
+                     std::span<Velocity> velocities) {
+  const Settings settings = impl_->settings;
+  Report report;
+  report.status = Validate(settings);
+  if (!report.ok()) return report;
+  BudgetMeter meter(settings.budget, &impl_->prices);
+  report = Validate(problem, impulses);
+  if (report.ok() && velocities.size() != problem.bodies.size()) report.status = Status::kWrongSize;
+  if (!report.ok()) return report;
+
+  // problem in
+  const Packer packer(problem, settings);
+  const std::vector<Island> islands = FindIslands(problem);
+  std::vector<PackedIsland> packed;
+  packed.reserve(islands.size());
+  std::vector<IslandCycle> cycles;
+  cycles.reserve(islands.size());
+  for (const Island& island : islands) {
+    packed.push_back(packer.Pack(island));
+    cycles.emplace_back(packed.back(), Packer::Start(packed.back(), island, impulses), settings,
+                        impl_->Recall(problem, island));
+  }
+
+  // a leg for every island in turn, until all are done
+  for (bool busy = true; busy;) {
+    busy = false;
+    for (IslandCycle& cycle : cycles) {
+      if (cycle.done()) continue;
+      cycle.Advance(&meter);
+      busy = true;
+    }
+  }
+
+  // results back
+  packer.WriteFreeVelocities(velocities);
+  report.stop = islands.empty() ? StopReason::kConverged : StopReason::kNotStarted;
+  for (size_t i = 0; i < islands.size(); ++i) {
+    const IslandState& state = cycles[i].state();
+    for (size_t k = 0; k < state.x.size(); ++k) impulses[islands[i].rows[k]] = state.x[k];
+    packer.AddVelocities(islands[i], state, velocities);
+
+    IslandReport part = cycles[i].Finish();
+    part.first_body = islands[i].bodies.empty() ? -1 : islands[i].bodies.front();
+    Accumulate(part.residual, &report);
+    report.sweeps = std::max(report.sweeps, part.sweeps);
+    report.factorisations += part.factorisations;
+    report.steps_accepted += part.steps_accepted;
+    report.steps_restored += part.steps_restored;
+    report.stop = WorseOf(report.stop, part.stop);
+    report.islands.push_back(part);
+  }
+  report.work = meter.work();
+  report.elapsed = meter.elapsed();
+  ++impl_->frame;
+  impl_->Forget();
+  return report;
+}
+
+}  // namespace cairn

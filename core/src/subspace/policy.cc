@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "subspace/policy.h"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+// Work units (row relaxations) per piece of a step, fitted to timings of the tower, wall, pyramid,
+// chain and rubble scenes. Prediction and time agree within a third there.
+constexpr double kPrepareRow = 1.2;
+constexpr double kAssembleRow = 3.3;
+constexpr double kFlop = 1 / 33.0;
+constexpr double kRefineRow = 3;
+constexpr double kSolveEntry = 1 / 7.0;
+
+/// A step that succeeds is worth 100 to 200 sweeps. What costs more than this many does not pay.
+constexpr double kMostSweeps = 150;
+/// Opportunities passed over before the price of an island that was too dear is asked again.
+constexpr int kPriceAgain = 30;
+constexpr int kLongestPause = 32;
+constexpr double kMostSoftening = 100;
+
+}  // namespace
+
+StepSettings IslandMemory::Step(const Settings& settings) const {
+  return {.proximal = std::min(1.0, settings.proximal * softening_),
+          .proximal_joints = settings.proximal_joints,
+          .factorisations = settings.k_sm,
+          .refinements = settings.refinements};
+}
+
+double IslandMemory::Cost(const PackedIsland& island, const Settings& settings,
+                          int factorisations) const {
+  const double rows = static_cast<double>(island.rows.size());
+  const double factorise = kAssembleRow * rows + kFlop * system_.factor_flops();
+  const double solve = kRefineRow * rows + kSolveEntry * system_.factor_nonzeros();
+  return kPrepareRow * rows + factorisations * (factorise + settings.refinements * solve);
+}
+
+bool IslandMemory::StepPays(const PackedIsland& island, const Settings& settings,
+                            const BudgetMeter& meter, double sweep_units) {
+  const bool always = settings.step_policy == StepPolicy::kAlways;
+  if (pause_ > 0 && !always) {
+    --pause_;
+    return false;
+  }
+  system_.Prepare(island);
+  const double cost = Cost(island, settings, settings.k_sm);
+  const bool too_dear = cost > kMostSweeps * static_cast<double>(island.rows.size()) && !always;
+  if (!too_dear && meter.Fits(cost, sweep_units)) return true;
+  pause_ = kPriceAgain;
+  return false;
+}
+
+void IslandMemory::Accepted() {
+  strikes_ = 0;
+  softening_ = std::max(1.0, softening_ / 2);
+}
+
+void IslandMemory::Restored() {
+  pause_ = std::min(kLongestPause, 1 << std::min(strikes_, 5));
+  ++strikes_;
+  softening_ = std::min(kMostSoftening, softening_ * 5);
+}
+
+}  // namespace cairn

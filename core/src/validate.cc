@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "validate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+bool Finite(const Eigen::Vector3d& v) { return v.allFinite(); }
+
+Status CheckBody(const Body& body) {
+  const bool finite = std::isfinite(body.inv_mass) && body.inv_inertia.allFinite() &&
+                      Finite(body.linear_factor) && Finite(body.velocity.linear) &&
+                      Finite(body.velocity.angular) && Finite(body.impulse) &&
+                      Finite(body.angular_impulse);
+  if (!finite) return Status::kNotFinite;
+
+  Eigen::Matrix3d factor;
+  const bool mass = body.inv_mass >= 0 && body.linear_factor.minCoeff() >= 0;
+  if (!mass || !FactorInertia(body.inv_inertia, &factor)) return Status::kBadMass;
+  return Status::kOk;
+}
+
+bool SamePair(const Row& row, const Row& other) {
+  return std::minmax(row.body_a, row.body_b) == std::minmax(other.body_a, other.body_b);
+}
+
+Status CheckParent(std::span<const Row> rows, int index) {
+  const Row& row = rows[index];
+  if (row.parent == kNoRow) return Status::kOk;
+  if (row.parent < 0 || row.parent >= index) return Status::kBadParent;
+  const Row& parent = rows[row.parent];
+  if (parent.parent != kNoRow || !SamePair(row, parent)) return Status::kBadParent;
+  if (!std::isfinite(row.friction)) return Status::kNotFinite;
+  if (row.friction < 0) return Status::kBadFriction;
+  return row.lo <= 0 && row.hi >= 0 ? Status::kOk : Status::kBadBounds;
+}
+
+Status CheckRow(const ContactProblem& problem, int index) {
+  const Row& row = problem.rows[index];
+  const bool finite = Finite(row.linear_a) && Finite(row.angular_a) && Finite(row.linear_b) &&
+                      Finite(row.angular_b) && std::isfinite(row.target) &&
+                      std::isfinite(row.compliance) && std::isfinite(row.relaxation);
+  if (!finite || std::isnan(row.lo) || std::isnan(row.hi)) return Status::kNotFinite;
+
+  const int bodies = static_cast<int>(problem.bodies.size());
+  const auto known = [bodies](int body) { return body >= kWorld && body < bodies; };
+  if (!known(row.body_a) || !known(row.body_b)) return Status::kNoSuchBody;
+  if (row.body_a == row.body_b && row.body_a != kWorld) return Status::kNoSuchBody;
+
+  if (row.lo > row.hi || row.lo == kInfinity || row.hi == -kInfinity) return Status::kBadBounds;
+  if (row.compliance < 0) return Status::kBadCompliance;
+  if (!(row.relaxation > 0 && row.relaxation < 2)) return Status::kBadCompliance;
+  return CheckParent(problem.rows, index);
+}
+
+bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
+
+}  // namespace
+
+bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor) {
+  constexpr double kFloatRounding = 1e-5;
+  const double scale = inv_inertia.cwiseAbs().maxCoeff();
+  const double tolerance = kFloatRounding * scale;
+  if ((inv_inertia - inv_inertia.transpose()).cwiseAbs().maxCoeff() > tolerance) return false;
+
+  // Cholesky, in which a pivot that is zero to rounding takes its whole column with it
+  Eigen::Matrix3d rest = 0.5 * (inv_inertia + inv_inertia.transpose());
+  factor->setZero();
+  for (int k = 0; k < 3; ++k) {
+    if (rest(k, k) < -tolerance) return false;
+    if (rest(k, k) <= 1e-12 * scale) {
+      if (rest.col(k).cwiseAbs().maxCoeff() > tolerance) return false;
+      rest.row(k).setZero();
+      rest.col(k).setZero();
+      continue;
+    }
+    factor->col(k).tail(3 - k) = rest.col(k).tail(3 - k) / std::sqrt(rest(k, k));
+    rest -= (factor->col(k) * factor->col(k).transpose()).eval();
+  }
+  return true;
+}
+
+Report Validate(const ContactProblem& problem, std::span<const double> impulses) {
+  Report report;
+  if (problem.bodies.empty()) {
+    report.status = Status::kEmptyProblem;
+    return report;
+  }
+  if (impulses.size() != problem.rows.size()) {
+    report.status = Status::kWrongSize;
+    return report;
+  }
+  for (int body = 0; body < static_cast<int>(problem.bodies.size()); ++body) {
+    report.status = CheckBody(problem.bodies[body]);
+    if (report.ok()) continue;
+    report.bad_body = body;
+    return report;
+  }
+  for (int row = 0; row < static_cast<int>(problem.rows.size()); ++row) {
+    report.status = std::isfinite(impulses[row]) ? CheckRow(problem, row) : Status::kNotFinite;
+    if (report.ok()) continue;
+    report.bad_row = row;
+    return report;
+  }
+  return report;
+}
+
+Status Validate(const Settings& settings) {
+  // names every field: a new one does not compile until its range is checked here
+  const auto& [method, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, threads, omega,
+               lifted_friction, step_policy, proximal, proximal_joints, refinements] = settings;
+  const bool enums = Inside(static_cast<int>(method), 0, static_cast<int>(Method::kPgsSm)) &&
+                     Inside(static_cast<int>(lifted_friction), 0, 1) &&
+                     Inside(static_cast<int>(step_policy), 0, 1);
+  const bool counts = k_gs >= 1 && k_sm >= 0 && max_sweeps >= 0 && threads == 1 && refinements >= 1;
+  const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
+                     omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
+                     Inside(proximal_joints, 1e-12, 1);
+  return enums && counts && reals && budget.valid() ? Status::kOk : Status::kBadSettings;
+}
+
+}  // namespace cairn

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "cairn/contact_problem.h"
+#include "cairn/settings.h"
+
+namespace cairn {
+
+/// The one place where input is judged. Everything behind it may rely on what it checks.
+/// On a status other than kOk, bad_row or bad_body of the report names the first offender.
+Report Validate(const ContactProblem& problem, std::span<const double> impulses);
+
+Status Validate(const Settings& settings);
+
+/// Lower triangular R with R R' = inv_inertia; zero columns where the matrix has no rank. False if
+/// the matrix is not symmetric positive semidefinite, to the precision of a float.
+bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor);
+
+}  // namespace cairn

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: MIT
+"""Who may include whom: bullet_adapter -> core -> simd, third parties in one home each, no cycle."""
+import os
+import re
+
+import tree
+
+# Where a quoted include is looked for, beside the folder of the file itself.
+INCLUDE_ROOTS = ("", "core/include", "core/src", "bullet_adapter/include", "bullet_adapter/src",
+                 "bench")
+
+# Folder -> prefixes of our own files that it may include. The longest folder that fits a file counts.
+MAY_INCLUDE = {
+    "simd": ("simd/",),
+    "core/include": ("core/include/",),
+    "core/src": ("core/", "simd/"),
+    "bullet_adapter/include": ("bullet_adapter/include/", "core/include/"),
+    "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
+    "bench": ("bench/", "bullet_adapter/include/", "core/include/", "simd/"),
+    "examples": ("examples/", "bullet_adapter/include/", "core/include/"),
+    "tests": ("",),
+}
+
+# Third party -> what its headers look like, and the files that may include them (regular expressions).
+THIRD_PARTIES = {
+    "Highway": (r"hwy/", r"(tests/)?simd/.*(\.cc|-inl\.h)$"),
+    "oneTBB": (r"(tbb|oneapi)/", r"core/src/executor_tbb"),
+    "Eigen's sparse factorisations": (
+        r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|OrderingMethods|.*Support|Iterative.*)$",
+        r"core/src/subspace/cholesky\.|tests/"),
+    "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
+    "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
+    "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
+    "test libraries": (r"(gtest|gmock|rapidcheck)(/|\.h)", r"tests/"),
+}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+
+
+def resolve(includer, name):
+    """The file of the project that an include means, or None."""
+    for root in (os.path.dirname(includer),) + INCLUDE_ROOTS:
+        path = os.path.normpath(os.path.join(root, name)).replace(os.sep, "/")
+        if os.path.isfile(os.path.join(tree.ROOT, path)):
+            return path
+    return None
+
+
+def allowed_folders(path):
+    fitting = [folder for folder in MAY_INCLUDE if path.startswith(folder + "/")]
+    return MAY_INCLUDE[max(fitting, key=len)] if fitting else None
+
+
+def third_party_error(path, bracket, name):
+    for party, (pattern, homes) in THIRD_PARTIES.items():
+        if re.match(pattern, name):
+            return None if re.match(homes, path) else f"no place for {party}: {name}"
+    if bracket == '"':
+        return f"no such file: {name}"
+    # What is left in <> is the standard library and POSIX: no folder but those of POSIX.
+    if "/" in name and not name.startswith(("sys/", "linux/")):
+        return f"unknown library: {name}"
+    return None
+
+
+def check(path, graph):
+    errors = []
+    allowed = allowed_folders(path)
+    if allowed is None:
+        return [f"{path}: no layer; add its folder to {os.path.basename(__file__)}"]
+    for bracket, name in INCLUDE.findall(tree.read(path)):
+        target = resolve(path, name)
+        if target:
+            graph[path].append(target)
+            if not target.startswith(allowed):
+                errors.append(f"{path}: may not include {target}")
+        else:
+            error = third_party_error(path, bracket, name)
+            errors += [f"{path}: {error}"] if error else []
+    return errors
+
+
+def find_cycle(graph):
+    """A list of files that include one another in a ring, or []."""
+    finished = set()
+
+    def visit(path, trail):
+        if path in trail:
+            return trail[trail.index(path):] + [path]
+        if path in finished:
+            return []
+        for target in graph.get(path, []):
+            cycle = visit(target, trail + [path])
+            if cycle:
+                return cycle
+        finished.add(path)
+        return []
+
+    for path in graph:
+        cycle = visit(path, [])
+        if cycle:
+            return cycle
+    return []
+
+
+def main():
+    paths = tree.walk(tree.SOURCE_FOLDERS, tree.CPP)
+    graph = {path: [] for path in paths}
+    errors = [error for path in paths for error in check(path, graph)]
+    cycle = find_cycle(graph)
+    if cycle:
+        errors.append("cycle: " + " -> ".join(cycle))
+    tree.finish(errors, len(paths))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,21 @@
+# The installed package, and the folder of sources, as other projects use them (tests/consumer/run.py).
+# Sanitized libraries are not for others.
+if(NOT CAIRN_INSTALL OR CAIRN_SANITIZE OR NOT TARGET cairn_bullet OR NOT TARGET cairn_bullet_float64)
+  return()
+endif()
+
+function(cairn_consumer_test name way)
+  add_test(NAME ${name}
+    COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/consumer/run.py ${way}
+            --build ${PROJECT_BINARY_DIR} --cmake ${CMAKE_COMMAND} --cxx ${CMAKE_CXX_COMPILER}
+            --libdir ${CMAKE_INSTALL_LIBDIR})
+  set_tests_properties(${name} PROPERTIES LABELS consumer ${ARGN})
+endfunction()
+
+cairn_consumer_test(install install FIXTURES_SETUP installed)
+cairn_consumer_test(install_consumer_find_package find_package FIXTURES_REQUIRED installed)
+cairn_consumer_test(install_consumer_pkg_config pkg_config FIXTURES_REQUIRED installed)
+cairn_consumer_test(install_consumer_add_subdirectory add_subdirectory)
+cairn_consumer_test(mixed_precisions_are_refused_by_cmake mixed_precisions FIXTURES_REQUIRED installed)
+cairn_consumer_test(missing_component_is_named missing_component FIXTURES_REQUIRED installed)
+cairn_consumer_test(wrong_precision_is_a_link_error wrong_precision FIXTURES_REQUIRED installed)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: MIT
+"""Builds and runs tests/consumer in one of the ways that users have, or shows that a mistake is refused."""
+import argparse
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+EXAMPLES = os.path.join(ROOT, "examples")
+
+
+def call(command, **options):
+    """Runs a command that must succeed; its output is the test's."""
+    print("+", shlex.join(command), flush=True)
+    return subprocess.run(command, check=True, **options)
+
+
+def refused(command, expected, **options):
+    """Runs a command that must fail and say `expected` (a regular expression) on its way."""
+    print("+", shlex.join(command), flush=True)
+    result = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+    # CMake breaks its messages into lines.
+    said = re.search(expected, " ".join(result.stdout.split()))
+    print(result.stdout)
+    if result.returncode == 0 or not said:
+        sys.exit(f"expected a failure that says: {expected}")
+
+
+class Consumer:
+    def __init__(self, args):
+        self.args = args
+        self.prefix = os.path.join(args.build, "tests", "installed")
+        self.folder = os.path.join(args.build, "tests", "consumer_" + args.way)
+        self.environment = dict(os.environ, PKG_CONFIG_PATH=os.path.join(
+            self.prefix, args.libdir, "pkgconfig"))
+
+    def configure(self, *options):
+        shutil.rmtree(self.folder, ignore_errors=True)
+        return [self.args.cmake, "-S", HERE, "-B", self.folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
+                f"-DCMAKE_CXX_COMPILER={self.args.cxx}", f"-DCMAKE_PREFIX_PATH={self.prefix}", *options]
+
+    def build_and_run(self):
+        call([self.args.cmake, "--build", self.folder])
+        for program in ("embed", "bullet_swap", "bullet_swap_float64"):
+            call([os.path.join(self.folder, program)])
+
+    def flags(self, package, kind):
+        answer = subprocess.run(["pkg-config", kind, package], env=self.environment, check=True,
+                                capture_output=True, text=True)
+        return shlex.split(answer.stdout)
+
+    def compile_command(self, example, package, program, *options):
+        return [self.args.cxx, "-std=c++20", *self.flags(package, "--cflags"), *options,
+                os.path.join(EXAMPLES, example), "-o", os.path.join(self.folder, program),
+                *self.flags(package, "--libs")]
+
+    # The ways, by their names on the command line.
+
+    def install(self):
+        shutil.rmtree(self.prefix, ignore_errors=True)
+        call([self.args.cmake, "--install", self.args.build, "--prefix", self.prefix],
+             stdout=subprocess.DEVNULL)
+
+    def find_package(self):
+        call(self.configure("-DCONSUMER_COMPONENTS=Core;Bullet;BulletFloat64"))
+        self.build_and_run()
+
+    def add_subdirectory(self):
+        # What only our own tools and tests need must not be asked of a parent project.
+        ours = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
+                for name in ("CLI11", "fmt", "nlohmann_json", "GTest", "rapidcheck", "Python3")]
+        call(self.configure(f"-DCONSUMER_CAIRN_SOURCE={ROOT}", *ours))
+        self.build_and_run()
+
+    def pkg_config(self):
+        os.makedirs(self.folder, exist_ok=True)
+        for example, package in (("embed.cc", "cairn"), ("bullet_swap.cc", "cairn-bullet"),
+                                 ("bullet_swap.cc", "cairn-bullet-float64")):
+            program = os.path.join(self.folder, package)
+            call(self.compile_command(example, package, program))
+            call([program], env=dict(os.environ, LD_LIBRARY_PATH=os.path.join(
+                self.prefix, self.args.libdir)))
+
+    def mixed_precisions(self):
+        refused(self.configure("-DCONSUMER_MIXES=ON"), "CAIRN_BULLET_PRECISION property of .*bullet3")
+
+    def missing_component(self):
+        refused(self.configure("-DCONSUMER_COMPONENTS=Bullet", "-DCMAKE_DISABLE_FIND_PACKAGE_CairnBullet=ON"),
+                "cairn has no component Bullet: its Bullet was not found .*libbullet-dev")
+        refused(self.configure("-DCONSUMER_COMPONENTS=Dynamics"),
+                "cairn has no component Dynamics: there are only Core, Bullet and BulletFloat64")
+
+    def wrong_precision(self):
+        os.makedirs(self.folder, exist_ok=True)
+        refused(self.compile_command("bullet_swap.cc", "cairn-bullet", "a", "-DBT_USE_DOUBLE_PRECISION"),
+                "undefined reference to .cairn::bullet::for_float64_bullet::ConstraintSolver",
+                env=self.environment)
+        refused(self.compile_command("bullet_swap.cc", "cairn-bullet-float64", "b", "-UBT_USE_DOUBLE_PRECISION"),
+                "undefined reference to .cairn::bullet::for_float_bullet::ConstraintSolver",
+                env=self.environment)
+
+
+def main():
+    ways = [name for name in vars(Consumer) if not name.startswith("_")]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("way", choices=ways)
+    parser.add_argument("--build", required=True, help="the build folder of Cairn")
+    parser.add_argument("--cmake", default="cmake")
+    parser.add_argument("--cxx", default="g++")
+    parser.add_argument("--libdir", default="lib", help="where libraries are, below the prefix")
+    args = parser.parse_args()
+    getattr(Consumer(args), args.way)()
+
+
+if __name__ == "__main__":
+    main()
