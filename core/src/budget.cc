@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "budget.h"
 
+#include <algorithm>
+
 namespace cairn {
 namespace {
 
@@ -8,12 +10,19 @@ namespace {
 constexpr double kStepMargin = 1.5;
 /// Weight of the newest measurement in a price.
 constexpr double kPriceMemory = 0.05;
+/// A measurement above so many times the price was interrupted by something else.
+constexpr double kMostSurprise = 4;
 
 }  // namespace
 
-BudgetMeter::BudgetMeter(Budget budget, WorkPrices* prices) : budget_(budget), prices_(prices) {
+BudgetMeter::BudgetMeter(Budget budget, double units_after, WorkPrices* prices)
+    : budget_(budget), units_after_(units_after), prices_(prices) {
   if (budget_.kind() == Budget::Kind::kTime) start_ = last_ = Clock::now();
   Charge(WorkKind::kSweep, 0);
+}
+
+void BudgetMeter::Begin() {
+  if (budget_.kind() == Budget::Kind::kTime) last_ = Clock::now();
 }
 
 void BudgetMeter::Charge(WorkKind kind, double units) {
@@ -31,10 +40,15 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
   if (units > 0) {
     const double ns = std::chrono::duration<double, std::nano>(now - last_).count() / units;
     double& price = kind == WorkKind::kSweep ? prices_->sweep_ns : prices_->step_ns;
-    price += kPriceMemory * (ns - price);
+    price += kPriceMemory * (std::min(ns, kMostSurprise * price) - price);
   }
   last_ = now;
-  spent_ = now - start_ >= budget_.time();
+  spent_ = TimeLeft(now) <= 0;
+}
+
+double BudgetMeter::TimeLeft(Clock::time_point now) const {
+  const std::chrono::duration<double, std::nano> left = budget_.time() - (now - start_);
+  return left.count() - units_after_ * prices_->sweep_ns;
 }
 
 bool BudgetMeter::Fits(double step_units, double sweep_units) const {
@@ -48,8 +62,7 @@ bool BudgetMeter::Fits(double step_units, double sweep_units) const {
   }
   const double needed =
       kStepMargin * (step_units * prices_->step_ns + sweep_units * prices_->sweep_ns);
-  const auto left = budget_.time() - (Clock::now() - start_);
-  return needed <= std::chrono::duration<double, std::nano>(left).count();
+  return needed <= TimeLeft(Clock::now());
 }
 
 StopReason BudgetMeter::stop_reason() const {

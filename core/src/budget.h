@@ -21,9 +21,13 @@ struct WorkPrices {
 /// Counts work, and says when the budget is spent. Reads the clock for Budget::Time only.
 class BudgetMeter {
  public:
-  BudgetMeter(Budget budget, WorkPrices* prices);
+  /// Of a time, what @p units_after of sweep work after the iteration will take is set aside.
+  BudgetMeter(Budget budget, double units_after, WorkPrices* prices);
 
-  /// Adds work that was done. @p units >= 0.
+  /// Work of one kind begins: time since the last Charge() went elsewhere, and says nothing of its
+  /// price.
+  void Begin();
+  /// Adds work that was done since Begin() or the last Charge(). @p units >= 0.
   void Charge(WorkKind kind, double units);
 
   /// No more work may be started.
@@ -39,7 +43,11 @@ class BudgetMeter {
  private:
   using Clock = std::chrono::steady_clock;
 
+  /// Nanoseconds of the budget that are left for the iteration. @pre the budget is a time
+  double TimeLeft(Clock::time_point now) const;
+
   Budget budget_;
+  double units_after_;
   WorkPrices* prices_;
   Clock::time_point start_, last_;
   double work_ = 0;

@@ -31,7 +31,7 @@ IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Se
 }
 
 void IslandCycle::Advance(BudgetMeter* meter) {
-  if (meter->spent()) return Stop(meter->stop_reason());
+  if (Spent(*meter)) return Stop(meter->stop_reason());
   const bool stepped = std::exchange(step_next_, false);
   if (stepped) {
     StepLeg(meter);
@@ -49,11 +49,16 @@ void IslandCycle::Advance(BudgetMeter* meter) {
   step_next_ = may_step && StepPays(*meter);
 }
 
+bool IslandCycle::Spent(const BudgetMeter& meter) const {
+  return meter.spent() && at_.sweeps >= settings_.min_sweeps;
+}
+
 int IslandCycle::SweepsOfLeg() const {
   return std::min(settings_.k_gs, settings_.max_sweeps - at_.sweeps);
 }
 
 Residual IslandCycle::MeasureNow(BudgetMeter* meter) const {
+  meter->Begin();
   const Residual residual = MeasureResidual(island_, at_.state);
   meter->Charge(WorkKind::kSweep, kMeasureSweeps * units_per_sweep());
   return residual;
@@ -62,8 +67,12 @@ Residual IslandCycle::MeasureNow(BudgetMeter* meter) const {
 bool IslandCycle::SweepOnce(BudgetMeter* meter) {
   const int rows = static_cast<int>(island_.rows.size());
   double moved = 0;
+  meter->Begin();
   for (int begin = 0; begin < rows; begin += kBlockRows) {
-    if (meter->spent()) {
+    if (Spent(*meter)) {
+      if (begin > 0) {
+        ProjectFriction(island_, {begin, rows, at_.sweeps}, settings_.lifted_friction, &at_.state);
+      }
       Stop(meter->stop_reason());
       return false;
     }
@@ -99,6 +108,7 @@ bool IslandCycle::StepPays(const BudgetMeter& meter) {
 void IslandCycle::StepLeg(BudgetMeter* meter) {
   const Point before = at_;
   const StepSettings step = memory_->Step(settings_);
+  meter->Begin();
   const StepResult result = TakeStep(island_, step, &memory_->system(), &at_.state);
   report_.factorisations += result.factorisations;
   meter->Charge(WorkKind::kStep, memory_->Cost(island_, settings_, result.factorisations));

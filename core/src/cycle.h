@@ -48,6 +48,8 @@ class IslandCycle {
   void Sweeps(int count, BudgetMeter* meter);
   bool SweepOnce(BudgetMeter* meter);
   int SweepsOfLeg() const;
+  /// The budget is spent, and the sweeps that are made in any case are done.
+  bool Spent(const BudgetMeter& meter) const;
   Residual MeasureNow(BudgetMeter* meter) const;
   void Stop(StopReason reason) { at_.stop = reason; }
   double units_per_sweep() const { return static_cast<double>(island_.rows.size()); }

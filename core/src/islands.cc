@@ -36,9 +36,10 @@ bool CanMove(const Body& body) {
 }
 
 std::vector<Island> FindIslands(const ContactProblem& problem) {
-  const auto movable = [&problem](int body) {
-    return body != kWorld && CanMove(problem.bodies[body]);
-  };
+  std::vector<char> can_move;
+  can_move.reserve(problem.bodies.size());
+  for (const Body& body : problem.bodies) can_move.push_back(CanMove(body));
+  const auto movable = [&can_move](int body) { return body != kWorld && can_move[body] != 0; };
 
   // join bodies that share a row, and mark the bodies that have rows at all
   DisjointSets sets(problem.bodies.size());

@@ -105,7 +105,7 @@ class Packer {
   PackedRow PackRow(const Row& row) const;
   Vector6 Whiten(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) const;
 
-  /// R of a body: a diagonal for the linear part, a triangle for the angular part.
+  /// R of a body: a diagonal for the linear part, a matrix for the angular part.
   struct Root {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero();
     Eigen::Matrix3d angular = Eigen::Matrix3d::Zero();

@@ -19,6 +19,11 @@ namespace {
 
 /// Frames an island may be absent before what was learnt about it is dropped.
 constexpr int kForgetAfter = 120;
+/// Keys of islands without names begin here.
+constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
+
+/// Writing the results back and measuring them costs about as much as this many sweeps.
+constexpr double kFinishSweeps = 1;
 
 /// Which of two reasons says more about why the whole did not get further.
 StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
@@ -37,7 +42,7 @@ struct Solver::Impl {
   Settings settings;
   std::unordered_map<std::uint64_t, Remembered> memories;
   WorkPrices prices;
-  int frame = 0;
+  int frame = 1;
 };
 
 IslandMemory* Solver::Impl::Recall(const ContactProblem& problem, const Island& island) {
@@ -45,7 +50,12 @@ IslandMemory* Solver::Impl::Recall(const ContactProblem& problem, const Island& 
   std::uint64_t key = ~std::uint64_t{0};
   for (int body : island.bodies) {
     const std::uint64_t id = problem.bodies[body].id;
-    key = std::min(key, id != 0 ? id : static_cast<std::uint64_t>(body) + 1);
+    key = std::min(key, id != 0 ? id : kUnnamed + static_cast<std::uint64_t>(body));
+  }
+  // two islands of one name must not share a system: the second goes by another name
+  const int place = island.bodies.empty() ? 0 : island.bodies.front() + 1;
+  while (memories[key].last_frame == frame) {
+    key = key * 6364136223846793005u + static_cast<std::uint64_t>(place);
   }
   Remembered& remembered = memories[key];
   remembered.last_frame = frame;
@@ -80,7 +90,8 @@ Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
   Report report;
   report.status = Validate(settings);
   if (!report.ok()) return report;
-  BudgetMeter meter(settings.budget, &impl_->prices);
+  const double units_after = kFinishSweeps * static_cast<double>(problem.rows.size());
+  BudgetMeter meter(settings.budget, units_after, &impl_->prices);
   report = Validate(problem, impulses);
   if (report.ok() && velocities.size() != problem.bodies.size()) report.status = Status::kWrongSize;
   if (!report.ok()) return report;

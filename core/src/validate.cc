@@ -32,8 +32,6 @@ Status CheckParent(std::span<const Row> rows, int index) {
   if (row.parent < 0 || row.parent >= index) return Status::kBadParent;
   const Row& parent = rows[row.parent];
   if (parent.parent != kNoRow || !SamePair(row, parent)) return Status::kBadParent;
-  if (!std::isfinite(row.friction)) return Status::kNotFinite;
-  if (row.friction < 0) return Status::kBadFriction;
   return row.lo <= 0 && row.hi >= 0 ? Status::kOk : Status::kBadBounds;
 }
 
@@ -41,7 +39,8 @@ Status CheckRow(const ContactProblem& problem, int index) {
   const Row& row = problem.rows[index];
   const bool finite = Finite(row.linear_a) && Finite(row.angular_a) && Finite(row.linear_b) &&
                       Finite(row.angular_b) && std::isfinite(row.target) &&
-                      std::isfinite(row.compliance) && std::isfinite(row.relaxation);
+                      std::isfinite(row.compliance) && std::isfinite(row.friction) &&
+                      std::isfinite(row.relaxation);
   if (!finite || std::isnan(row.lo) || std::isnan(row.hi)) return Status::kNotFinite;
 
   const int bodies = static_cast<int>(problem.bodies.size());
@@ -52,6 +51,7 @@ Status CheckRow(const ContactProblem& problem, int index) {
   if (row.lo > row.hi || row.lo == kInfinity || row.hi == -kInfinity) return Status::kBadBounds;
   if (row.compliance < 0) return Status::kBadCompliance;
   if (!(row.relaxation > 0 && row.relaxation < 2)) return Status::kBadCompliance;
+  if (row.friction < 0) return Status::kBadFriction;
   return CheckParent(problem.rows, index);
 }
 
@@ -65,21 +65,21 @@ bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor) 
   const double tolerance = kFloatRounding * scale;
   if ((inv_inertia - inv_inertia.transpose()).cwiseAbs().maxCoeff() > tolerance) return false;
 
-  // Cholesky, in which a pivot that is zero to rounding takes its whole column with it
+  // Cholesky with the largest pivot first. What is left of a semidefinite matrix has its largest
+  // entry on the diagonal: when it has not, only rounding is left, or the matrix was indefinite.
   Eigen::Matrix3d rest = 0.5 * (inv_inertia + inv_inertia.transpose());
   factor->setZero();
   for (int k = 0; k < 3; ++k) {
-    if (rest(k, k) < -tolerance) return false;
-    if (rest(k, k) <= 1e-12 * scale) {
-      if (rest.col(k).cwiseAbs().maxCoeff() > tolerance) return false;
-      rest.row(k).setZero();
-      rest.col(k).setZero();
-      continue;
-    }
-    factor->col(k).tail(3 - k) = rest.col(k).tail(3 - k) / std::sqrt(rest(k, k));
+    int largest;
+    const double pivot = rest.diagonal().maxCoeff(&largest);
+    const double most = rest.cwiseAbs().maxCoeff();
+    if (pivot <= 1e-12 * scale || pivot * (1 + kFloatRounding) < most) break;
+    factor->col(k) = rest.col(largest) / std::sqrt(pivot);
     rest -= (factor->col(k) * factor->col(k).transpose()).eval();
+    rest.row(largest).setZero();
+    rest.col(largest).setZero();
   }
-  return true;
+  return rest.cwiseAbs().maxCoeff() <= tolerance;
 }
 
 Report Validate(const ContactProblem& problem, std::span<const double> impulses) {
@@ -109,12 +109,14 @@ Report Validate(const ContactProblem& problem, std::span<const double> impulses)
 
 Status Validate(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
-  const auto& [method, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, threads, omega,
-               lifted_friction, step_policy, proximal, proximal_joints, refinements] = settings;
+  const auto& [method, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, min_sweeps, threads,
+               omega, lifted_friction, step_policy, proximal, proximal_joints, refinements] =
+      settings;
   const bool enums = Inside(static_cast<int>(method), 0, static_cast<int>(Method::kPgsSm)) &&
                      Inside(static_cast<int>(lifted_friction), 0, 1) &&
                      Inside(static_cast<int>(step_policy), 0, 1);
-  const bool counts = k_gs >= 1 && k_sm >= 0 && max_sweeps >= 0 && threads == 1 && refinements >= 1;
+  const bool counts = k_gs >= 1 && k_sm >= 0 && max_sweeps >= 0 && min_sweeps >= 0 &&
+                      threads == 1 && refinements >= 1;
   const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
                      omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
                      Inside(proximal_joints, 1e-12, 1);

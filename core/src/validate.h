@@ -15,8 +15,8 @@ Report Validate(const ContactProblem& problem, std::span<const double> impulses)
 
 Status Validate(const Settings& settings);
 
-/// Lower triangular R with R R' = inv_inertia; zero columns where the matrix has no rank. False if
-/// the matrix is not symmetric positive semidefinite, to the precision of a float.
+/// R with R R' = inv_inertia, zero columns last where the matrix has no rank. False if the matrix
+/// is not symmetric positive semidefinite, to the precision of a float.
 bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor);
 
 }  // namespace cairn

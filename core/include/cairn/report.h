@@ -76,8 +76,8 @@ struct [[nodiscard]] Report {
   int steps_restored = 0;
   StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
                                               ///< any island before a sweep limit before the rest.
-  std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
-  std::chrono::nanoseconds elapsed{0};  ///< 0 unless the budget is a time.
+  std::int64_t work = 0;                      ///< Work units spent; see Budget::Work.
+  std::chrono::nanoseconds elapsed{0};        ///< 0 unless the budget is a time.
   std::vector<IslandReport> islands;
 
   bool ok() const { return status == Status::kOk; }

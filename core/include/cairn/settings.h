@@ -43,6 +43,9 @@ struct Settings {
   /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration.
   double min_progress = 0;
   Budget budget = Budget::Unlimited();
+  /// Sweeps made even if the budget is spent before them, >= 0. At 0 a budget that is too small for
+  /// anything returns the warm start.
+  int min_sweeps = 1;
   /// Threads that may work on one Solve(). This version sweeps on the calling thread: only 1.
   int threads = 1;
 

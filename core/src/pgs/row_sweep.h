@@ -17,4 +17,9 @@ struct SweepRange {
 double SweepRows(const PackedIsland& island, SweepRange range, LiftedFriction lifted,
                  IslandState* state);
 
+/// Brings friction back inside its bounds, in rows that a sweep did not get to after it had changed
+/// their parents.
+void ProjectFriction(const PackedIsland& island, SweepRange range, LiftedFriction lifted,
+                     IslandState* state);
+
 }  // namespace cairn

@@ -22,7 +22,9 @@ class CountingCholesky
 /// Position of each body in a minimum degree order of the body graph.
 std::vector<int> OrderBodies(int bodies, std::span<const BodyPair> pairs) {
   std::vector<Eigen::Triplet<double>> edges;
-  edges.reserve(2 * pairs.size());
+  edges.reserve(bodies + 2 * pairs.size());
+  // without a diagonal Eigen takes every column for a dense one, and does not order at all
+  for (int i = 0; i < bodies; ++i) edges.emplace_back(i, i, 1.0);
   for (const auto& [i, j] : pairs) {
     edges.emplace_back(i, j, 1.0);
     edges.emplace_back(j, i, 1.0);
