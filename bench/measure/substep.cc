@@ -83,6 +83,23 @@ void Substep::Restore() const {
   }
 }
 
+std::vector<double> Substep::Impulses() const {
+  std::vector<double> impulses;
+  for (const Group& group : groups_) {
+    for (const btPersistentManifold* manifold : group.manifolds) {
+      for (int i = 0; i < manifold->getNumContacts(); ++i) {
+        const btManifoldPoint& point = manifold->getContactPoint(i);
+        impulses.insert(impulses.end(), {point.m_appliedImpulse, point.m_appliedImpulseLateral1,
+                                         point.m_appliedImpulseLateral2});
+      }
+    }
+    for (btTypedConstraint* joint : group.joints) {
+      impulses.push_back(joint->internalGetAppliedImpulse());
+    }
+  }
+  return impulses;
+}
+
 void Substep::SolveWith(btConstraintSolver* solver, const btContactSolverInfo& info,
                         btIDebugDraw* debug_drawer) const {
   solver->prepareSolve(num_bodies_, num_manifolds_);

@@ -30,6 +30,11 @@ class Substep {
   void SolveWith(btConstraintSolver* solver, const btContactSolverInfo& info,
                  btIDebugDraw* debug_drawer) const;
 
+  /// Impulses as they stand in the objects: of every contact point (normal, two lateral), then of
+  /// every joint, group by group.
+  std::vector<double> Impulses() const;
+
+  const std::vector<Group>& groups() const { return groups_; }
   /// Every rigid body a solver may change, in the order of the groups, each once.
   const std::vector<btRigidBody*>& bodies() const { return bodies_; }
 

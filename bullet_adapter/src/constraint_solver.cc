@@ -17,8 +17,9 @@ using Clock = std::chrono::steady_clock;
 /// Iteration settings of one group: what the user asked for, and what Bullet's info says.
 Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max_override) {
   Settings settings = user;
-  const bool plain = user.k_sm == 0 || user.method != Method::kPgsSm;
-  if (plain) settings.lifted_friction = LiftedFriction::kHold;
+  const bool as_bullet =
+      user.method == Method::kPgs || (user.method == Method::kPgsSm && user.k_sm == 0);
+  if (as_bullet) settings.lifted_friction = LiftedFriction::kHold;
   if (user.budget.kind() == Budget::Kind::kUnlimited) {
     settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
     settings.tolerance = 0;
@@ -53,8 +54,8 @@ struct ConstraintSolver::Impl {
   btDispatcher* dispatcher = nullptr;
 
   /// What of a Budget::Time is not for the iteration.
-  Clock::time_point start, iterated;
-  std::chrono::nanoseconds finish_time{0};
+  Clock::time_point start;
+  std::chrono::nanoseconds split_time{0}, finish_time{0};  ///< of the last group
 };
 
 ConstraintSolver::ConstraintSolver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
@@ -86,12 +87,10 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
     impl_->dispatcher = dispatcher;
     return 0;
   }
-  impl_->start = impl_->iterated = Clock::now();
-  const btScalar result = btSequentialImpulseConstraintSolver::solveGroup(
+  impl_->start = Clock::now();
+  return btSequentialImpulseConstraintSolver::solveGroup(
       bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
       debug_drawer, dispatcher);
-  impl_->finish_time = Clock::now() - impl_->iterated;
-  return result;
 }
 
 void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
@@ -104,7 +103,7 @@ void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* 
 void ConstraintSolver::reset() {
   btSequentialImpulseConstraintSolver::reset();
   impl_->solver.Reset();
-  impl_->finish_time = {};
+  impl_->split_time = impl_->finish_time = {};
   impl_->report = {};
 }
 
@@ -112,6 +111,11 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
     btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds, int num_manifolds,
     btTypedConstraint** constraints, int num_constraints, const btContactSolverInfo& info,
     btIDebugDraw* debug_drawer) {
+  if (m_tmpSolverBodyPool.size() == 0) {
+    impl_->report = {};
+    impl_->report.stop = StopReason::kConverged;
+    return 0;
+  }
   const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
                        &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
                        &m_tmpSolverContactRollingFrictionConstraintPool};
@@ -120,22 +124,23 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
 
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (settings.budget.kind() == Budget::Kind::kTime && settings.budget.valid()) {
-    const std::chrono::nanoseconds left =
-        settings.budget.time() - (Clock::now() - impl_->start) - impl_->finish_time;
+    const std::chrono::nanoseconds left = settings.budget.time() - (Clock::now() - impl_->start) -
+                                          impl_->split_time - impl_->finish_time;
     settings.budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
   }
   impl_->solver.settings() = settings;
   impl_->report =
       impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities());
-  impl_->iterated = Clock::now();
   if (!impl_->report.ok()) {
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer);
   }
   impl_->rows.Write(pools);
+  const Clock::time_point iterated = Clock::now();
   solveGroupCacheFriendlySplitImpulseIterations(bodies, num_bodies, manifolds, num_manifolds,
                                                 constraints, num_constraints, info, debug_drawer);
+  impl_->split_time = Clock::now() - iterated;
 
   m_leastSquaresResidual = static_cast<btScalar>(std::pow(impl_->report.residual_max, 2));
   m_analyticsData.m_numSolverCalls++;
@@ -145,6 +150,15 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   m_analyticsData.m_numContactManifolds = num_manifolds;
   m_analyticsData.m_remainingLeastSquaresResidual = m_leastSquaresResidual;
   return 0;
+}
+
+btScalar ConstraintSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int num_bodies,
+                                                         const btContactSolverInfo& info) {
+  const Clock::time_point start = Clock::now();
+  const btScalar result =
+      btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, num_bodies, info);
+  impl_->finish_time = Clock::now() - start;
+  return result;
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -53,24 +53,8 @@ Body ToBody(const btSolverBody& source) {
   return body;
 }
 
-/// J M^-1 J' of one row.
-double EffectiveInverseMass(const Row& row, std::span<const Body> bodies) {
-  const auto part = [bodies](int index, const Eigen::Vector3d& linear,
-                             const Eigen::Vector3d& angular) {
-    const Body& body = bodies[index];
-    return body.inv_mass * linear.dot(body.linear_factor.cwiseProduct(linear)) +
-           angular.dot(body.inv_inertia * angular);
-  };
-  return part(row.body_a, row.linear_a, row.angular_a) +
-         part(row.body_b, row.linear_b, row.angular_b);
-}
-
-/// Bullet's step D as a multiple of the exact one: its contacts are over-relaxed by m_sor, its soft
-/// joints by 1 + cfm, because their D leaves the cfm out. Where that diverges, the exact step.
-double Relaxation(double step, double diagonal) {
-  const double relaxation = step * diagonal;
-  return relaxation > 0 && relaxation < 1.99 ? relaxation : 1.0;
-}
+/// Step lengths that a sweep can be made with; where Bullet's diverges, the exact one.
+double Relaxation(double factor) { return factor > 0 && factor < 1.99 ? factor : 1.0; }
 
 }  // namespace
 
@@ -103,7 +87,6 @@ int GroupRows::ReadRow(btSolverConstraint* source, const Row& law) {
   if (step > 0) {
     row.target = std::clamp(source->m_rhs / step, -kMostTarget, kMostTarget);
     row.compliance = source->m_cfm / step;
-    row.relaxation = Relaxation(step, EffectiveInverseMass(row, bodies_) + row.compliance);
   }
 
   rows_.push_back(row);
@@ -116,7 +99,10 @@ void GroupRows::ReadJoints(const RowPools& pools, const btContactSolverInfo& inf
                            SweepLimits limits) {
   for (int i = 0; i < pools.joints->size(); ++i) {
     btSolverConstraint& source = (*pools.joints)[i];
-    Row law{.lo = Bound(source.m_lowerLimit), .hi = Bound(source.m_upperLimit)};
+    // Bullet's D leaves the cfm of a joint out
+    Row law{.lo = Bound(source.m_lowerLimit),
+            .hi = Bound(source.m_upperLimit),
+            .relaxation = Relaxation(1 + source.m_cfm)};
     if (limits == SweepLimits::kBullet) {
       const int own = source.m_overrideNumSolverIterations;
       law.max_sweeps = own > 0 ? own : info.m_numIterations;
@@ -128,6 +114,7 @@ void GroupRows::ReadJoints(const RowPools& pools, const btContactSolverInfo& inf
 void GroupRows::ReadContacts(const RowPools& pools, const btContactSolverInfo& info,
                              SweepLimits limits) {
   const Row unlimited;
+  const double relaxation = Relaxation(info.m_sor);
   const int max_sweeps =
       limits == SweepLimits::kBullet ? info.m_numIterations : unlimited.max_sweeps;
   const bool interleaved = (info.m_solverMode & SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS);
@@ -136,12 +123,14 @@ void GroupRows::ReadContacts(const RowPools& pools, const btContactSolverInfo& i
     btSolverConstraint& source = (*pools.frictions)[i];
     ReadRow(&source, {.parent = row_of_contact[source.m_frictionIndex],
                       .friction = std::max<double>(0, source.m_friction),
+                      .relaxation = relaxation,
                       .max_sweeps = max_sweeps});
   };
 
   int friction = 0;
   for (int i = 0; i < pools.contacts->size(); ++i) {
-    row_of_contact[i] = ReadRow(&(*pools.contacts)[i], {.lo = 0, .max_sweeps = max_sweeps});
+    row_of_contact[i] = ReadRow(&(*pools.contacts)[i],
+                                {.lo = 0, .relaxation = relaxation, .max_sweeps = max_sweeps});
     while (interleaved && friction < pools.frictions->size() &&
            (*pools.frictions)[friction].m_frictionIndex == i) {
       read_friction(friction++);
@@ -167,7 +156,8 @@ void GroupRows::Write(const RowPools& pools) const {
   }
   for (int i = 0; i < pools.bodies->size(); ++i) {
     btSolverBody& body = (*pools.bodies)[i];
-    if (!Reacts(body)) continue;
+    // kinematic bodies too: their change is zero, where Bullet's warm start may have moved them
+    if (body.m_originalBody == nullptr) continue;
     body.m_deltaLinearVelocity = ToBullet(velocities_[i].linear);
     body.m_deltaAngularVelocity = ToBullet(velocities_[i].angular);
   }

@@ -30,8 +30,9 @@ class StackWorld {
       AddBody(btScalar(1 + i), &box_, btVector3(btScalar(0.05 * i), btScalar(0.5 + i), 0));
     }
     AddBody(2, &box_, btVector3(btScalar(1.5), btScalar(4.5), 0));
-    pin_ = std::make_unique<btPoint2PointConstraint>(
-        *bodies_[5], *bodies_[6], btVector3(btScalar(0.65), 0, 0), btVector3(btScalar(-0.65), 0, 0));
+    pin_ = std::make_unique<btPoint2PointConstraint>(*bodies_[5], *bodies_[6],
+                                                     btVector3(btScalar(0.65), 0, 0),
+                                                     btVector3(btScalar(-0.65), 0, 0));
     pin_->setJointFeedback(&feedback_);
     pin_->enableFeedback(true);
     pin_->setBreakingImpulseThreshold(btScalar(0.05));  // breaks at once
@@ -229,7 +230,7 @@ TEST(ReferenceTest, TheReferenceIsFarCloserThanTenSweeps) {
 TEST(VelocityErrorTest, IsTheLongestDifferenceOfLinearVelocities) {
   std::vector<Velocity> a(3), b(3);
   a[1].linear = {1, 2, 3};
-  b[1].linear = {1, 5, 7};    // 0, 3, 4 apart
+  b[1].linear = {1, 5, 7};  // 0, 3, 4 apart
   b[2].linear = {0, 0, -4};
   b[0].angular = {100, 0, 0};  // not looked at
   EXPECT_DOUBLE_EQ(VelocityError(a, b), 5);

@@ -21,7 +21,8 @@ inline namespace CAIRN_BULLET_PRECISION {
 /// Without a budget (the default) each substep makes btContactSolverInfo::m_numIterations sweeps,
 /// with a subspace step among them where it is predicted to pay; Settings::max_sweeps and
 /// Settings::tolerance are not used, m_leastSquaresResidualThreshold is, and per-joint iteration
-/// overrides are honoured. With Settings::k_sm = 0 this is Bullet's own iteration.
+/// overrides are honoured. With Settings::k_sm = 0 or Method::kPgs this is Bullet's own iteration,
+/// down to friction that keeps its impulse when its contact lifts off (LiftedFriction::kHold).
 ///
 /// With a budget, m_numIterations and overrides are not used: the solver goes on until
 /// Settings::tolerance, Settings::max_sweeps or the budget. A Budget::Time is for the whole
@@ -56,6 +57,8 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
                                              btTypedConstraint** constraints, int num_constraints,
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug_drawer) override;
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int num_bodies,
+                                         const btContactSolverInfo& info) override;
 
  private:
   struct Impl;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "cli/cairn_contestants.h"
+
+#include <fmt/format.h>
+
+namespace cairn::cli {
+
+void CairnContestant::Begin(const Effort& effort, btContactSolverInfo* info) {
+  info->m_numIterations = effort.iterations;
+  solver_.settings().budget = effort.budget ? Budget::Time(*effort.budget) : Budget::Unlimited();
+}
+
+Work CairnContestant::work() const {
+  const Report& report = solver_.report();
+  return {.iterations = report.sweeps,
+          .steps_accepted = report.steps_accepted,
+          .steps_restored = report.steps_restored,
+          .factorisations = report.factorisations};
+}
+
+std::string CairnContestant::refusal() const {
+  const Report& report = solver_.report();
+  // A world without dynamic bodies has nothing to solve.
+  if (report.ok() || report.status == Status::kEmptyProblem) return {};
+  return fmt::format("refused: {}", Describe(report.status));
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cairn::cli {
+
+/// Takes `--float64` and `--precision P` out of the arguments.
+/// @return the precision asked for, or "" if none was. @throws Failure (kUsage)
+std::string TakePrecision(std::vector<std::string>* arguments);
+
+/// Replaces the command, the first argument that is not an option, by its full name.
+/// @throws Failure (kUsage) if it is none of `commands`.
+void CompleteCommand(const std::vector<std::string>& commands, std::vector<std::string>* arguments);
+
+/// The arguments as they can be shown to others: of paths, only the last part.
+std::string WithoutPaths(const std::vector<std::string>& arguments);
+
+/// A whole number. @throws Failure (kUsage) if it is none, or not in [least, most]; `meaning` says
+/// in the message what the option is.
+long long ParseCount(std::string_view option, std::string_view text, long long least,
+                     long long most, std::string_view meaning);
+
+}  // namespace cairn::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "cli/error_sampler.h"
+
+#include <cmath>
+
+#include "cli/result.h"
+#include "measure/reference.h"
+
+namespace cairn::cli {
+
+ErrorSampler::ErrorSampler(std::span<const SolverChoice> solvers,
+                           const btContactSolverInfo& defaults)
+    : reference_(std::make_unique<bullet::ConstraintSolver>(bench::ReferenceSettings())),
+      defaults_(defaults) {
+  for (const SolverChoice& choice : solvers) contestants_.push_back(choice.entry->make());
+}
+
+void ErrorSampler::WarmUp(bench::Substep* substep, std::span<const Effort> efforts) {
+  for (size_t i = 0; i < contestants_.size(); ++i) {
+    btContactSolverInfo info = defaults_;
+    contestants_[i]->Begin(efforts[i], &info);
+    substep->Restore();
+    substep->SolveWith(contestants_[i]->solver(), info, nullptr);
+  }
+}
+
+ErrorSampler::Errors ErrorSampler::Measure(bench::Substep* substep,
+                                           std::span<const Effort> efforts) {
+  substep->Restore();
+  substep->SolveWith(reference_.get(), defaults_, nullptr);
+  const std::vector<Velocity> truth = bench::ReadVelocities(substep->bodies());
+
+  Errors errors;
+  errors.reference_residual = reference_->report().residual_max;
+  for (size_t i = 0; i < contestants_.size(); ++i) {
+    btContactSolverInfo info = defaults_;
+    contestants_[i]->Begin(efforts[i], &info);
+    substep->Restore();
+    substep->SolveWith(contestants_[i]->solver(), info, nullptr);
+    const bool refused = !contestants_[i]->refusal().empty();
+    const double error = bench::VelocityError(truth, bench::ReadVelocities(substep->bodies()));
+    errors.of_solvers.push_back(refused ? kNotMeasured : error);
+  }
+  return errors;
+}
+
+}  // namespace cairn::cli

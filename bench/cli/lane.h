@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cli/contestant.h"
+#include "cli/iteration_fit.h"
+#include "cli/options.h"
+#include "cli/result.h"
+#include "cli/scene_choice.h"
+#include "cli/watched_solver.h"
+
+namespace cairn::cli {
+
+/// One solver in a world of its own.
+class Lane {
+ public:
+  Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOptions& options);
+
+  enum class Observing { kOn, kOff };
+  /// One frame of 1/60 s. Nothing once the solver has failed.
+  void Step(Observing observing);
+  /// Hands the next substep to a probe, island by island: what is too large for a solver of dense
+  /// matrices must not depend on how the world of another solver packs islands.
+  void ProbeNext(bench::InstrumentedSolver::Probe probe);
+
+  bool failed() const { return result_.failure.has_value(); }
+  /// What the solver may spend on the next frame.
+  const Effort& effort() const { return effort_; }
+  const std::string& label() const { return result_.label; }
+  const bench::World& world() const { return world_; }
+  /// Settings of the world before the solver changed them.
+  const btContactSolverInfo& defaults() const { return defaults_; }
+
+  /// Adds the velocity error of a sample [m/s].
+  void AddError(double error) { result_.velocity_errors.push_back(error); }
+  /// The result with what became of the scene. Once, after the last frame.
+  SolverResult Finish();
+
+ private:
+  void Prepare(Observing observing);
+  void Record(std::chrono::nanoseconds time);
+
+  std::unique_ptr<Contestant> contestant_;
+  WatchedSolver watched_;
+  bench::World world_;
+  std::unique_ptr<bench::Scene> scene_;
+  btContactSolverInfo defaults_;
+  std::optional<IterationFit> fit_;
+  Effort effort_;
+  bool probing_ = false;
+  double residual_ = kNotMeasured;  ///< Largest of the groups of this frame.
+  SolverResult result_;
+};
+
+}  // namespace cairn::cli

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace cairn::cli {
+
+enum class ListForm { kText, kJson };
+
+/// `cairn list scenes` and `cairn list solvers`, to stdout.
+void ListScenes(ListForm form);
+void ListSolvers(ListForm form);
+
+}  // namespace cairn::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/progress.h"
+#include "cli/scene_choice.h"
+#include "cli/solver_registry.h"
+
+namespace cairn::cli {
+
+/// What `cairn run` was asked for, checked.
+struct RunOptions {
+  std::vector<SceneChoice> scenes;
+  std::vector<SolverChoice> solvers;
+  std::optional<std::chrono::nanoseconds> budget;
+  IterationRule iterations;
+  int frames = 300;
+  std::uint64_t seed = 0;
+  int samples = 8;
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+}  // namespace cairn::cli

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/build_info.h"
+#include "cli/machine.h"
+
+namespace cairn::cli {
+
+/// The value of everything that was not measured.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// One frame of one solver.
+struct Frame {
+  double time = 0;  ///< In the solver, observing not counted [ms].
+  int iterations = 0;
+  double residual = kNotMeasured;  ///< Largest of all groups, on observed frames [m/s].
+  int steps_accepted = 0, steps_restored = 0, factorisations = 0;
+};
+
+/// A physical fact of a scene after the last frame.
+struct Fact {
+  std::string name, unit;
+  double value = kNotMeasured;
+};
+
+struct SolverFailure {
+  int frame = 0;
+  std::string reason;
+};
+
+/// One solver on one scene.
+struct SolverResult {
+  std::string label;
+  bool counts_iterations = true;  ///< False for a direct solver.
+  bool is_ours = false;           ///< A solver of Cairn.
+  std::string effort;             ///< "10 iterations", "2 ms": what it was told.
+  std::vector<Frame> frames;
+  /// For each sample [m/s]; NaN where the solver refused the state.
+  std::vector<double> velocity_errors;
+  std::optional<double> fallback_share;  ///< Calls it left to another solver, in [0, 1].
+  std::optional<SolverFailure> failure;  ///< Its world was not stepped after this frame.
+  std::vector<Fact> facts;
+  std::optional<bool> standing;  ///< Only where the scene is something that can fall.
+};
+
+/// A state that every solver was given.
+struct Sample {
+  int frame = 0;
+  std::string source;             ///< Label of the solver in whose run it occurred.
+  double reference_residual = 0;  ///< What the converged reference left [m/s].
+};
+
+struct SceneResult {
+  std::string name, description;
+  int size = 0;
+  std::uint64_t seed = 0;
+  int bodies = 0, joints = 0;
+  int observed_every = 1;  ///< The residual was measured in every k-th frame.
+  std::vector<Sample> samples;
+  std::vector<SolverResult> solvers;
+};
+
+/// Everything a run knows, for every form of output.
+struct RunResult {
+  std::string date;     ///< ISO 8601, UTC
+  std::string command;  ///< Without paths.
+  BuildInfo build;
+  Machine machine;
+  Noise noise;
+  std::string simd_target;
+  std::optional<std::chrono::nanoseconds> budget;
+  int frames = 0;  ///< asked for
+  std::vector<SceneResult> scenes;
+
+  /// A solver of Cairn failed.
+  bool check_failed() const;
+};
+
+}  // namespace cairn::cli

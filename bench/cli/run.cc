@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "cli/run.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <memory>
+#include <vector>
+
+#include "cli/error_sampler.h"
+#include "cli/lane.h"
+#include "cli/sample_plan.h"
+#include "simd/target.h"
+
+namespace cairn::cli {
+namespace {
+
+/// Measuring the residual costs about as much as a sweep in each of ten frames; more bodies than
+/// this are measured in every fifth frame only.
+constexpr int kManyBodies = 400;
+constexpr int kSparse = 5;
+
+class SceneRun {
+ public:
+  SceneRun(const SceneChoice& scene, const RunOptions& options)
+      : options_(options), plan_(options.samples, options.frames) {
+    for (const SolverChoice& solver : options.solvers) {
+      lanes_.push_back(std::make_unique<Lane>(scene, solver, options));
+    }
+    result_.name = scene.info->name;
+    result_.description = scene.info->description;
+    result_.size = scene.size;
+    result_.seed = options.seed;
+    result_.bodies = static_cast<int>(lanes_.front()->world().dynamic_bodies().size());
+    result_.joints = static_cast<int>(lanes_.front()->world().joints().size());
+    result_.observed_every = result_.bodies > kManyBodies ? kSparse : 1;
+    sampler_ = std::make_unique<ErrorSampler>(options.solvers, lanes_.front()->defaults());
+  }
+
+  void Step(int frame) {
+    if (plan_.IsSample(frame) || plan_.IsWarmUp(frame)) Probe(frame);
+    const auto observing =
+        frame % result_.observed_every == 0 ? Lane::Observing::kOn : Lane::Observing::kOff;
+    for (const auto& lane : lanes_) lane->Step(observing);
+  }
+
+  bool AllFailed() const {
+    return std::all_of(lanes_.begin(), lanes_.end(),
+                       [](const auto& lane) { return lane->failed(); });
+  }
+
+  SceneResult Finish() {
+    for (const auto& lane : lanes_) result_.solvers.push_back(lane->Finish());
+    return std::move(result_);
+  }
+
+ private:
+  void Probe(int frame) {
+    const auto source = std::find_if(lanes_.begin(), lanes_.end(),
+                                     [](const auto& lane) { return !lane->failed(); });
+    if (source == lanes_.end()) return;
+    std::vector<Effort> efforts;
+    for (const auto& lane : lanes_) efforts.push_back(lane->effort());
+    if (plan_.IsWarmUp(frame)) {
+      (*source)->ProbeNext([this, efforts](bench::Substep* substep, const btContactSolverInfo&) {
+        sampler_->WarmUp(substep, efforts);
+      });
+      return;
+    }
+    (*source)->ProbeNext([this, efforts, frame, label = (*source)->label()](
+                             bench::Substep* substep, const btContactSolverInfo&) {
+      const ErrorSampler::Errors errors = sampler_->Measure(substep, efforts);
+      for (size_t i = 0; i < lanes_.size(); ++i) lanes_[i]->AddError(errors.of_solvers[i]);
+      result_.samples.push_back(
+          {.frame = frame, .source = label, .reference_residual = errors.reference_residual});
+    });
+  }
+
+  const RunOptions& options_;
+  SamplePlan plan_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::unique_ptr<ErrorSampler> sampler_;
+  SceneResult result_;
+};
+
+}  // namespace
+
+RunResult Run(const RunOptions& options, const std::string& command) {
+  RunResult result;
+  result.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  result.command = command;
+  result.build = DescribeBuild();
+  result.machine = DescribeMachine();
+  result.noise = MeasureNoise(std::chrono::milliseconds(300));
+  result.simd_target = simd::TargetName(simd::ChooseTarget().target);
+  result.budget = options.budget;
+  result.frames = options.frames;
+
+  Progress progress(options.progress);
+  for (const SceneChoice& scene : options.scenes) {
+    SceneRun run(scene, options);
+    for (int frame = 0; frame < options.frames && !run.AllFailed(); ++frame) {
+      progress.Show(fmt::format("{}: frame {} of {}", scene.info->name, frame, options.frames));
+      run.Step(frame);
+    }
+    result.scenes.push_back(run.Finish());
+  }
+  return result;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace cairn::cli {
+
+/// Which frames are sampled: `samples` of them, spread evenly; at most one in four, so that enough
+/// frames are left to be timed.
+class SamplePlan {
+ public:
+  SamplePlan(int samples, int frames);
+
+  int samples() const { return samples_; }
+  bool IsSample(int frame) const;
+  /// The frame before a sample, in which the sampled solvers warm up.
+  bool IsWarmUp(int frame) const { return IsSample(frame + 1); }
+
+ private:
+  int FrameOf(int sample) const;
+
+  int samples_, frames_;
+};
+
+}  // namespace cairn::cli

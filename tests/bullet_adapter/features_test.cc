@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// What Bullet's users rely on besides contacts: joints that break, feedback, overrides, thresholds,
+// kinematic and disabled things, worlds that call in other ways.
+#include <gtest/gtest.h>
+
+#include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "cairn/bullet/constraint_solver.h"
+#include "scenes/facts.h"
+#include "scenes/world.h"
+
+namespace cairn::test {
+namespace {
+
+using bench::At;
+using bench::ConnectedBodies;
+using bench::World;
+
+constexpr btScalar kGravity = btScalar(9.81);
+constexpr btScalar kTimeStep = btScalar(1) / 60;
+
+/// A box of 2 kg that hangs from the world by a point 1 m above its centre.
+btPoint2PointConstraint* HangBox(World* world) {
+  btRigidBody* const box =
+      world->AddBox(btVector3(1, 1, 1) / 4, {.mass = 2, .pose = At(0, 5, 0), .surface = {}});
+  return static_cast<btPoint2PointConstraint*>(
+      world->AddJoint(std::make_unique<btPoint2PointConstraint>(*box, btVector3(0, 1, 0)),
+                      ConnectedBodies::kCollide));
+}
+
+TEST(Features, JointFeedbackCarriesTheWeight) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  btTypedConstraint* const joint = HangBox(&world);
+  btJointFeedback feedback{};
+  joint->setJointFeedback(&feedback);
+  for (int i = 0; i < 10; ++i) world.Step();
+
+  EXPECT_NEAR(feedback.m_appliedForceBodyA.y(), 2 * kGravity, 1e-3);
+}
+
+TEST(Features, JointBreaksAboveItsThresholdAndNotBelow) {
+  const auto enabled_after = [](btScalar threshold) {
+    bullet::ConstraintSolver solver;
+    World world(&solver);
+    btTypedConstraint* const joint = HangBox(&world);
+    joint->setBreakingImpulseThreshold(threshold);
+    for (int i = 0; i < 10; ++i) world.Step();
+    return joint->isEnabled();
+  };
+  const btScalar weight = 2 * kGravity * kTimeStep;  // impulse of one step
+  EXPECT_TRUE(enabled_after(btScalar(1.1) * weight));
+  // p2p rows are x, y, z and only the last may break it, so pull the box aside for a load there
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  btTypedConstraint* const joint = HangBox(&world);
+  joint->setBreakingImpulseThreshold(btScalar(0.5));
+  world.dynamic_bodies()[0]->applyCentralImpulse({0, 0, 20});
+  for (int i = 0; i < 10; ++i) world.Step();
+  EXPECT_FALSE(joint->isEnabled());
+}
+
+TEST(Features, ADisabledJointHoldsNothing) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  HangBox(&world)->setEnabled(false);
+  for (int i = 0; i < 30; ++i) world.Step();
+
+  EXPECT_LT(world.dynamic_bodies()[0]->getLinearVelocity().y(), -4);
+}
+
+TEST(Features, BodiesWithoutContactsFall) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.AddSphere(1, {.mass = 1, .pose = At(0, 100, 0), .surface = {}});
+  for (int i = 0; i < 60; ++i) world.Step();
+
+  EXPECT_NEAR(world.dynamic_bodies()[0]->getLinearVelocity().y(), -kGravity, 1e-3);
+  EXPECT_TRUE(solver.report().ok());
+}
+
+TEST(Features, AnEmptyWorldIsNoError) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.Step();
+  EXPECT_TRUE(solver.report().ok());
+}
+
+TEST(Features, SweepsFollowTheIterationsOfTheWorldAndOfTheJoint) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.solver_info().m_numIterations = 7;
+  world.AddGround(10);
+  world.AddBox(btVector3(1, 1, 1) / 2,
+               {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
+  world.Step();
+  EXPECT_LE(solver.report().sweeps, 7);
+
+  // two links, so that a few sweeps do not solve it
+  btTypedConstraint* const upper = HangBox(&world);
+  btRigidBody* const below =
+      world.AddBox(btVector3(1, 1, 1) / 4, {.mass = 9, .pose = At(0, 3, 0), .surface = {}});
+  btTypedConstraint* const lower =
+      world.AddJoint(std::make_unique<btPoint2PointConstraint>(
+                         upper->getRigidBodyA(), *below, btVector3(0, -1, 0), btVector3(0, 1, 0)),
+                     ConnectedBodies::kCollide);
+  solver.settings().k_sm = 0;
+  world.Step();
+  EXPECT_EQ(solver.report().sweeps, 7);
+  upper->setOverrideNumSolverIterations(30);
+  lower->setOverrideNumSolverIterations(30);
+  world.Step();
+  EXPECT_EQ(solver.report().sweeps, 30);
+}
+
+TEST(Features, AResidualThresholdEndsTheSweepsEarly) {
+  bullet::ConstraintSolver solver(Settings{.k_sm = 0});
+  World world(&solver);
+  world.solver_info().m_numIterations = 1000;
+  world.solver_info().m_leastSquaresResidualThreshold = btScalar(1e-4);
+  world.AddGround(10);
+  for (int i = 0; i < 5; ++i) {
+    world.AddBox(btVector3(1, 1, 1) / 2,
+                 {.mass = 1, .pose = At(0, btScalar(0.5) + btScalar(i), 0), .surface = {}});
+  }
+  world.Step();
+  EXPECT_EQ(solver.report().stop, StopReason::kStationary);
+  EXPECT_LT(solver.report().sweeps, 1000);
+  EXPECT_LE(solver.report().residual_max, 0.1);
+}
+
+TEST(Features, KinematicBodiesAreNotMovedWhateverTheirMass) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  btRigidBody* const table =
+      world.AddBox(btVector3(2, 1, 2), {.mass = 5, .pose = At(0, 0, 0), .surface = {}});
+  world.bullet()->removeRigidBody(table);
+  table->setCollisionFlags(table->getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
+  world.bullet()->addRigidBody(table);
+  btRigidBody* const box = world.AddBox(
+      btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(1.5), 0), .surface = {}});
+  for (int i = 0; i < 60; ++i) world.Step();
+
+  EXPECT_EQ(table->getLinearVelocity().length2(), 0);
+  EXPECT_NEAR(box->getCenterOfMassPosition().y(), 1.5, 0.02);
+}
+
+TEST(Features, DeepPenetrationIsPushedOutWithoutSpeed) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.AddGround(10);
+  btRigidBody* const box = world.AddBox(
+      btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.4), 0), .surface = {}});
+  world.Step();  // 0.1 m deep: beyond the threshold of the split impulse
+
+  EXPECT_GT(box->getCenterOfMassPosition().y(), 0.405);
+  EXPECT_LT(box->getLinearVelocity().y(), 0.01);
+}
+
+TEST(Features, RollingFrictionStopsABall) {
+  const auto speed_after = [](btScalar rolling_friction) {
+    bullet::ConstraintSolver solver;
+    World world(&solver);
+    btRigidBody* const ground = world.AddGround(50);
+    ground->setRollingFriction(rolling_friction);
+    btRigidBody* const ball =
+        world.AddSphere(btScalar(0.5), {.mass = 1,
+                                        .pose = At(0, btScalar(0.5), 0),
+                                        .surface = {.rolling_friction = rolling_friction}});
+    ball->setLinearVelocity({2, 0, 0});
+    for (int i = 0; i < 180; ++i) world.Step();
+    return ball->getLinearVelocity().length();
+  };
+  EXPECT_GT(speed_after(0), 1);
+  EXPECT_LT(speed_after(btScalar(0.5)), 0.01);
+}
+
+TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.AddGround(10);
+  world.AddBox(btVector3(1, 1, 1) / 2,
+               {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
+  world.Step();
+  ASSERT_TRUE(solver.report().ok());
+  world.dynamic_bodies()[0]->setLinearVelocity({std::numeric_limits<btScalar>::quiet_NaN(), 0, 0});
+  world.Step();
+  EXPECT_EQ(solver.report().status, Status::kNotFinite);
+  EXPECT_GE(solver.report().bad_row, 0);
+}
+
+TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
+  bullet::ConstraintSolver solver(Settings{.budget = Budget::Time(std::chrono::nanoseconds(0))});
+  World world(&solver);
+  world.AddGround(10);
+  world.AddBox(btVector3(1, 1, 1) / 2,
+               {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
+  world.Step();
+  EXPECT_EQ(solver.report().stop, StopReason::kTimeSpent);
+  EXPECT_EQ(solver.report().sweeps, 1);  // Settings::min_sweeps
+}
+
+TEST(Features, ABudgetOfWorkGivesTheSameBitsTwice) {
+  const auto hash = [] {
+    bullet::ConstraintSolver solver(Settings{.budget = Budget::Work(20000)});
+    World world(&solver);
+    world.AddGround(10);
+    for (int i = 0; i < 20; ++i) {
+      world.AddBox(btVector3(1, 1, 1) / 2,
+                   {.mass = 1, .pose = At(0, btScalar(0.5) + btScalar(i), 0), .surface = {}});
+    }
+    for (int i = 0; i < 60; ++i) world.Step();
+    return bench::StateHash(world);
+  };
+  EXPECT_EQ(hash(), hash());
+}
+
+TEST(Features, ResetForgetsWhatWasLearnt) {
+  const auto run = [](bullet::ConstraintSolver* solver) {
+    World world(solver);
+    world.AddGround(10);
+    for (int i = 0; i < 10; ++i) {
+      world.AddBox(btVector3(1, 1, 1) / 2, {.mass = i == 9 ? btScalar(100) : btScalar(1),
+                                            .pose = At(0, btScalar(0.5) + btScalar(i), 0),
+                                            .surface = {}});
+    }
+    for (int i = 0; i < 60; ++i) world.Step();
+    return bench::StateHash(world);
+  };
+  bullet::ConstraintSolver solver;
+  const auto fresh = run(&solver);
+  solver.reset();
+  EXPECT_EQ(run(&solver), fresh);
+}
+
+TEST(Features, SolvesAtOnceForCallersWithoutABracket) {
+  bullet::ConstraintSolver solver;
+  btRigidBody body(btRigidBody::btRigidBodyConstructionInfo(1, nullptr, nullptr));
+  body.applyCentralForce({60, 0, 0});
+  btCollisionObject* object = &body;
+  btContactSolverInfo info;
+  info.m_timeStep = kTimeStep;
+  solver.solveGroup(&object, 1, nullptr, 0, nullptr, 0, info, nullptr, nullptr);
+  EXPECT_NEAR(body.getLinearVelocity().x(), 1, 1e-5);
+  EXPECT_LT(body.getCompanionId(), 0);
+}
+
+TEST(Features, WorksWithIslandsSwitchedOff) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.bullet()->getSimulationIslandManager()->setSplitIslands(false);
+  world.AddGround(10);
+  btRigidBody* const box = world.AddBox(
+      btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.5), 0), .surface = {}});
+  for (int i = 0; i < 60; ++i) world.Step();
+  EXPECT_NEAR(box->getCenterOfMassPosition().y(), 0.5, 0.01);
+}
+
+TEST(Features, IsTakenForASequentialImpulseSolver) {
+  bullet::ConstraintSolver solver;
+  EXPECT_EQ(solver.getSolverType(), BT_SEQUENTIAL_IMPULSE_SOLVER);
+}
+
+}  // namespace
+}  // namespace cairn::test
