@@ -7,7 +7,7 @@ usage() {
 usage: bash bench/demo.sh [OPTIONS OF cairn run...]
 
 Options are added to those below, for example:  bash bench/demo.sh --size 2 --seed 7
-Environment: BUDGET (2ms) per frame for each solver, FRAMES (300).
+Environment: BUDGET (16ms, a frame at 60 Hz) for each solver, FRAMES (300).
 TEXT
 }
 
@@ -19,7 +19,7 @@ case "${1:-}" in
 esac
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-budget="${BUDGET:-2ms}"
+budget="${BUDGET:-16ms}"
 frames="${FRAMES:-300}"
 
 bash cmake/install-packages.sh build
@@ -32,8 +32,8 @@ cmake --build --preset release -j "$(nproc)" --target cairn_tool
 
 mkdir -p out
 run=(build/release/bin/cairn run castle
-  --solver "bullet-si,bullet-nncg,bullet-dantzig,cairn"
-  --budget "$budget" --frames "$frames"
+  --solver "bullet-si,bullet-si@fit,bullet-nncg,bullet-dantzig,cairn"
+  --budget "$budget" --frames "$frames" --samples 4
   --json out/castle.json --csv out/castle.csv --report out/castle.html "$@")
 echo "== ${run[*]}"
 "${run[@]}"
