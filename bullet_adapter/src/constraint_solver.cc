@@ -55,7 +55,7 @@ struct ConstraintSolver::Impl {
 
   /// What of a Budget::Time is not for the iteration.
   Clock::time_point start;
-  std::chrono::nanoseconds split_time{0}, finish_time{0};  ///< of the last group
+  std::chrono::nanoseconds write_time{0}, finish_time{0};  ///< of the last group
 };
 
 ConstraintSolver::ConstraintSolver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
@@ -103,7 +103,7 @@ void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* 
 void ConstraintSolver::reset() {
   btSequentialImpulseConstraintSolver::reset();
   impl_->solver.Reset();
-  impl_->split_time = impl_->finish_time = {};
+  impl_->write_time = impl_->finish_time = {};
   impl_->report = {};
 }
 
@@ -125,7 +125,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (settings.budget.kind() == Budget::Kind::kTime && settings.budget.valid()) {
     const std::chrono::nanoseconds left = settings.budget.time() - (Clock::now() - impl_->start) -
-                                          impl_->split_time - impl_->finish_time;
+                                          impl_->write_time - impl_->finish_time;
     settings.budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
   }
   impl_->solver.settings() = settings;
@@ -136,11 +136,11 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer);
   }
+  const Clock::time_point solved = Clock::now();
   impl_->rows.Write(pools);
-  const Clock::time_point iterated = Clock::now();
   solveGroupCacheFriendlySplitImpulseIterations(bodies, num_bodies, manifolds, num_manifolds,
                                                 constraints, num_constraints, info, debug_drawer);
-  impl_->split_time = Clock::now() - iterated;
+  impl_->write_time = Clock::now() - solved;
 
   m_leastSquaresResidual = static_cast<btScalar>(std::pow(impl_->report.residual_max, 2));
   m_analyticsData.m_numSolverCalls++;

@@ -23,7 +23,7 @@ constexpr int kForgetAfter = 120;
 constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
 
 /// Writing the results back and measuring them costs about as much as this many sweeps.
-constexpr double kFinishSweeps = 1;
+constexpr double kFinishSweeps = 1.5;
 
 /// Which of two reasons says more about why the whole did not get further.
 StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }

@@ -127,7 +127,7 @@ TEST(Steps, MakeNoMoreFactorisationsThanAllowed) {
   for (int k_sm : {1, 2, 4}) {
     Settings settings = AlwaysSteps(10);
     settings.k_sm = k_sm;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       const Report report = test::Solve(settings, Irregular(seed)).report;
       if (report.islands.size() != 1) continue;
       EXPECT_LE(report.factorisations, k_sm);

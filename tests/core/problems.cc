@@ -79,6 +79,11 @@ Vector3d Random::Direction() {
   return v.normalized();
 }
 
+Eigen::Matrix3d Random::Rotation() {
+  const Vector3d axis = Direction();
+  return Eigen::AngleAxisd(Uniform(0, 3), axis).toRotationMatrix();
+}
+
 Body PointMass(double mass, const Vector3d& impulse) {
   Body body;
   body.inv_mass = 1 / mass;
@@ -96,9 +101,9 @@ Body Box(double mass, const Vector3d& sides) {
 
 Body RandomBody(Random* random) {
   Body body = PointMass(std::pow(10, random->Uniform(-1, 1)));
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(random->Uniform(0, 3), random->Direction()));
-  const Vector3d axes(random->Uniform(3, 9), random->Uniform(3, 9), random->Uniform(3, 9));
-  const Eigen::Matrix3d root = turn.toRotationMatrix() * axes.cwiseSqrt().asDiagonal();
+  const Eigen::Matrix3d turn = random->Rotation();
+  const Vector3d axes = Vector3d::Constant(6) + random->Vector(3);
+  const Eigen::Matrix3d root = turn * axes.cwiseSqrt().asDiagonal();
   const Eigen::Matrix3d product = body.inv_mass * (root * root.transpose());
   body.inv_inertia = 0.5 * (product + product.transpose());
   body.velocity = {.linear = random->Vector(1), .angular = random->Vector(1)};

@@ -51,7 +51,7 @@ Settings PlainSweeps(int sweeps);
 /// A step after every k_gs sweeps, whatever it costs, and no look at the tolerance.
 Settings AlwaysSteps(int sweeps);
 
-/// The same numbers with every standard library.
+/// The same numbers with every standard library and compiler: call it once in an expression.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -60,6 +60,7 @@ class Random {
   int Index(int size) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(size)); }
   Vector3d Vector(double size);  ///< each entry in (-size, size)
   Vector3d Direction();
+  Eigen::Matrix3d Rotation();
 
  private:
   std::mt19937_64 engine_;

@@ -16,7 +16,8 @@ Scene MixedScene(std::uint64_t seed) {
   Scene scene = test::RandomPile({.bodies = 10, .contacts = 15, .pins = 3}, seed);
   test::Random random(seed);
   for (int i = 0; i < 5; ++i) {  // motors and limits that only turn
-    Row row = test::AngularRow(random.Index(5), 5 + random.Index(5), random.Direction());
+    const int a = random.Index(5), b = 5 + random.Index(5);
+    Row row = test::AngularRow(a, b, random.Direction());
     row.target = random.Uniform(-1, 1);
     row.lo = -random.Uniform(0, 1);
     row.hi = random.Uniform(0, 1);

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -96,7 +96,8 @@ TEST(Validate, RefusesWhatIsNotFiniteInEveryNumberOfABody) {
       {"impulse", [](Body* b) { return &b->impulse.y(); }},
       {"angular_impulse", [](Body* b) { return &b->angular_impulse.z(); }},
   };
-  for (const auto& [name, field] : fields) {
+  for (const auto& [name, number] : fields) {
+    const auto& field = number;  // clang 14 captures no bindings
     for (double bad : {kNan, kInfinity, -kInfinity}) {
       ExpectRefused({name, Status::kNotFinite, [&](Scene* s) { *field(&s->bodies[1]) = bad; }}, -1,
                     1);
@@ -116,7 +117,8 @@ TEST(Validate, RefusesWhatIsNotFiniteInEveryNumberOfARow) {
       {"friction", [](Row* r) { return &r->friction; }},
   };
   for (int row : {0, 2}) {  // with bounds of its own, and of friction
-    for (const auto& [name, field] : fields) {
+    for (const auto& [name, number] : fields) {
+      const auto& field = number;
       for (double bad : {kNan, kInfinity, -kInfinity}) {
         ExpectRefused({name, Status::kNotFinite, [&](Scene* s) { *field(&s->rows[row]) = bad; }},
                       row, -1);
@@ -317,8 +319,7 @@ TEST(FactorInertia, TakesTheRoundingOfFloatsForZero) {
   int refused = 0;
   double largest = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(random.Uniform(0, 3), random.Direction()));
-    const Eigen::Matrix3f axes = turn.toRotationMatrix().cast<float>();
+    const Eigen::Matrix3f axes = random.Rotation().cast<float>();
     const Eigen::Matrix3f inertia = axes * Eigen::Vector3f(0, 0, 1).asDiagonal() * axes.transpose();
     const Eigen::Matrix3d wanted = inertia.cast<double>();
     Eigen::Matrix3d factor;

@@ -9,6 +9,7 @@ namespace {
 // Work units (row relaxations) per piece of a step, fitted to timings of the tower, wall, pyramid,
 // chain and rubble scenes. Prediction and time agree within a third there.
 constexpr double kPrepareRow = 1.2;
+constexpr double kAnalyseRow = 10;  // where the body graph is new
 constexpr double kAssembleRow = 3.3;
 constexpr double kFlop = 1 / 33.0;
 constexpr double kRefineRow = 3;
@@ -45,9 +46,11 @@ bool IslandMemory::StepPays(const PackedIsland& island, const Settings& settings
     --pause_;
     return false;
   }
+  const double rows = static_cast<double>(island.rows.size());
+  if (!meter.Fits((kPrepareRow + kAnalyseRow) * rows, sweep_units)) return false;
   system_.Prepare(island);
   const double cost = Cost(island, settings, settings.k_sm);
-  const bool too_dear = cost > kMostSweeps * static_cast<double>(island.rows.size()) && !always;
+  const bool too_dear = cost > kMostSweeps * rows && !always;
   if (!too_dear && meter.Fits(cost, sweep_units)) return true;
   pause_ = kPriceAgain;
   return false;
