@@ -14,6 +14,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Aimed at of a budget of time, so that the last block of rows still ends inside it.
+constexpr int kAimPercent = 98;
+
 /// Iteration settings of one group: what the user asked for, and what Bullet's info says.
 Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max_override) {
   Settings settings = user;
@@ -124,8 +127,9 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
 
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (settings.budget.kind() == Budget::Kind::kTime && settings.budget.valid()) {
-    const std::chrono::nanoseconds left = settings.budget.time() - (Clock::now() - impl_->start) -
-                                          impl_->write_time - impl_->finish_time;
+    const std::chrono::nanoseconds left = settings.budget.time() * kAimPercent / 100 -
+                                          (Clock::now() - impl_->start) - impl_->write_time -
+                                          impl_->finish_time;
     settings.budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
   }
   impl_->solver.settings() = settings;
