@@ -4,8 +4,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstdint>
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

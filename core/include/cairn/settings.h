@@ -61,7 +61,8 @@ struct Settings {
   double proximal = 3e-3;
   /// The same on rows without bounds (joints), in [1e-12, 1].
   double proximal_joints = 1e-8;
-  /// Solves with each factor, >= 1. The second and later ones refine the first.
+  /// Solves with the last factor of a step at most, >= 1. Those after the first refine it while no
+  /// row leaves its bounds; see docs/solver.md before raising it.
   int refinements = 1;
 };
 
