@@ -6,7 +6,7 @@
 namespace cairn {
 namespace {
 
-/// Predictions of a step's time are off by this factor at most in 99 of 100 frames.
+/// Safety on the predicted time of a step, which depends on the set that it finds.
 constexpr double kStepMargin = 1.5;
 /// Weight of the newest measurement in a price.
 constexpr double kPriceMemory = 0.05;

@@ -7,7 +7,7 @@ namespace cairn {
 namespace {
 
 // Work units (row relaxations) per piece of a step, fitted to timings of the tower, wall, pyramid,
-// chain and rubble scenes. Prediction and time agree within a third there.
+// chain and rubble scenes.
 constexpr double kPrepareRow = 1.2;
 constexpr double kAnalyseRow = 10;  // where the body graph is new
 constexpr double kAssembleRow = 3.3;
