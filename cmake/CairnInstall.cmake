@@ -23,9 +23,9 @@ file(RELATIVE_PATH CAIRN_PC_PREFIX
      ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" CAIRN_PC_PREFIX ${CAIRN_PC_PREFIX})
 
-# A static libcairn leaves Highway to be linked by its user.
+# A static libcairn leaves Highway and oneTBB to be linked by its user.
 set(CAIRN_STATIC ON)
-set(CAIRN_PC_STATIC_LIBS " -lhwy")
+set(CAIRN_PC_STATIC_LIBS " -lhwy -ltbb")
 if(BUILD_SHARED_LIBS)
   set(CAIRN_STATIC OFF)
   set(CAIRN_PC_STATIC_LIBS "")

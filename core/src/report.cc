@@ -12,7 +12,7 @@ std::string_view Describe(Status status) {
     case Status::kEmptyProblem:
       return "the problem has no bodies";
     case Status::kWrongSize:
-      return "the results do not have one entry per row and one per body";
+      return "the sizes of the problem, its start or its results do not fit one another";
     case Status::kNotFinite:
       return "a number is NaN, or infinite and not a bound";
     case Status::kBadMass:
@@ -30,6 +30,12 @@ std::string_view Describe(Status status) {
              "its own";
     case Status::kBadFriction:
       return "a friction coefficient is negative";
+    case Status::kBadDiagonal:
+      return "a diagonal entry of the matrix is missing, zero or negative";
+    case Status::kNotSymmetric:
+      return "the matrix is not symmetric";
+    case Status::kNotPositiveDefinite:
+      return "the matrix is not positive definite: no minimum, or none that this method finds";
   }
   return "unknown status";
 }
@@ -42,6 +48,12 @@ std::string_view Describe(StopReason reason) {
       return "converged";
     case StopReason::kStationary:
       return "stationary";
+    case StopReason::kStalled:
+      return "stalled at rounding";
+    case StopReason::kBrokeDown:
+      return "broke down";
+    case StopReason::kCancelled:
+      return "cancelled";
     case StopReason::kSweepLimit:
       return "sweep limit";
     case StopReason::kTimeSpent:

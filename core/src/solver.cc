@@ -9,6 +9,7 @@
 #include "budget.h"
 #include "cycle.h"
 #include "islands.h"
+#include "lcp_solver.h"
 #include "pack.h"
 #include "residual.h"
 #include "subspace/policy.h"
@@ -43,6 +44,8 @@ struct Solver::Impl {
   std::unordered_map<std::uint64_t, Remembered> memories;
   WorkPrices prices;
   int frame = 1;
+  LcpSolver lcp;
+  Observer observer;
 };
 
 IslandMemory* Solver::Impl::Recall(const ContactProblem& problem, const Island& island) {
@@ -79,9 +82,33 @@ Settings& Solver::settings() { return impl_->settings; }
 const Settings& Solver::settings() const { return impl_->settings; }
 
 void Solver::Reset() {
+  auto fresh = std::make_unique<Impl>();
+  fresh->settings = impl_->settings;
+  fresh->observer = std::move(impl_->observer);
+  impl_ = std::move(fresh);
+}
+
+void Solver::Observe(Observer observer) { impl_->observer = std::move(observer); }
+
+Report Solver::Solve(const BoxedLcp& problem, Eigen::VectorXd* x) {
   const Settings settings = impl_->settings;
-  impl_ = std::make_unique<Impl>();
-  impl_->settings = settings;
+  Report report;
+  report.status = Validate(settings);
+  return report.ok() ? impl_->lcp.Solve(problem, settings, impl_->observer, x) : report;
+}
+
+Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorXd* v) {
+  Report report = Validate(problem);
+  const bool fit = u->size() == problem.a.size() && v->size() == problem.b.size();
+  if (report.ok() && !fit) report.status = Status::kWrongSize;
+  if (!report.ok()) return report;
+
+  Eigen::VectorXd x(u->size() + v->size());
+  x << *u, *v;
+  report = Solve(ToBoxed(problem), &x);
+  *u = x.head(u->size());
+  *v = x.tail(v->size());
+  return report;
 }
 
 Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
@@ -89,6 +116,9 @@ Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
   const Settings settings = impl_->settings;
   Report report;
   report.status = Validate(settings);
+  if (settings.method == Method::kPgsSmLiteral || settings.method == Method::kInteriorPoint) {
+    report.status = Status::kBadSettings;
+  }
   if (!report.ok()) return report;
   const double units_after = kFinishSweeps * static_cast<double>(problem.rows.size());
   BudgetMeter meter(settings.budget, units_after, &impl_->prices);

@@ -55,6 +55,8 @@ Status CheckRow(const ContactProblem& problem, int index) {
   return CheckParent(problem.rows, index);
 }
 
+constexpr int kMostThreads = 1024;
+
 bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
 
 }  // namespace
@@ -109,17 +111,19 @@ Report Validate(const ContactProblem& problem, std::span<const double> impulses)
 
 Status Validate(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
-  const auto& [method, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, min_sweeps, threads,
-               omega, lifted_friction, step_policy, proximal, proximal_joints, refinements] =
-      settings;
-  const bool enums = Inside(static_cast<int>(method), 0, static_cast<int>(Method::kPgsSm)) &&
-                     Inside(static_cast<int>(lifted_friction), 0, 1) &&
-                     Inside(static_cast<int>(step_policy), 0, 1);
+  const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, min_sweeps,
+               threads, omega, lifted_friction, step_policy, proximal, proximal_joints, refinements,
+               active_tolerance] = settings;
+  const bool enums =
+      Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
+      Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
+      Inside(static_cast<int>(lifted_friction), 0, 1) &&
+      Inside(static_cast<int>(step_policy), 0, 1);
   const bool counts = k_gs >= 1 && k_sm >= 0 && max_sweeps >= 0 && min_sweeps >= 0 &&
-                      threads == 1 && refinements >= 1;
+                      Inside(threads, 1, kMostThreads) && refinements >= 1;
   const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
                      omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
-                     Inside(proximal_joints, 1e-12, 1);
+                     Inside(proximal_joints, 1e-12, 1) && Inside(active_tolerance, 0, kInfinity);
   return enums && counts && reals && budget.valid() ? Status::kOk : Status::kBadSettings;
 }
 

@@ -27,10 +27,11 @@ THIRD_PARTIES = {
     "oneTBB": (r"(tbb|oneapi)/", r"core/src/executor_tbb"),
     "Eigen's sparse factorisations": (
         r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|OrderingMethods|.*Support|Iterative.*)$",
-        r"core/src/subspace/cholesky\.|tests/"),
+        r"core/src/subspace/eigen_cholesky\.|tests/"),
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
+    "Siconos": (r"siconos/", r"bench/cli/siconos_"),
     "test libraries": (r"(gtest|gmock|rapidcheck)(/|\.h)", r"tests/"),
 }
 

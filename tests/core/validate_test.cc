@@ -240,8 +240,8 @@ TEST(Validate, NamesTheFirstOffenderAndBodiesBeforeRows) {
 
 TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
   Solver solver;
-  EXPECT_EQ(solver.Solve({}, {}, {}).status, Status::kEmptyProblem);
-  EXPECT_EQ(Measure({}, {}).status, Status::kEmptyProblem);
+  EXPECT_EQ(solver.Solve(ContactProblem{}, {}, {}).status, Status::kEmptyProblem);
+  EXPECT_EQ(Measure(ContactProblem{}, {}).status, Status::kEmptyProblem);
 
   const Scene scene = GoodScene();
   for (const auto& [rows, bodies] : {std::pair(4, 3), {6, 3}, {5, 2}, {5, 4}}) {
@@ -268,7 +268,14 @@ TEST(Validate, RefusesEverySettingOutOfItsRange) {
         SolveUntouched(&solver, scene, std::vector<double>(scene.rows.size(), 0.25));
     EXPECT_EQ(report.status, Status::kBadSettings);
   };
-  refuse("method", [](Settings* s) { s->method = static_cast<Method>(3); });
+  for (double bad : {-1.0, std::nan("")}) {
+    refuse("active_tolerance", [&](Settings* s) { s->active_tolerance = bad; });
+  }
+  refuse("method", [](Settings* s) { s->method = static_cast<Method>(5); });
+  refuse("order", [](Settings* s) { s->order = static_cast<SweepOrder>(5); });
+  for (Method matrix_only : {Method::kPgsSmLiteral, Method::kInteriorPoint}) {
+    refuse("method", [&](Settings* s) { s->method = matrix_only; });
+  }
   refuse("k_gs", [](Settings* s) { s->k_gs = 0; });
   refuse("k_sm", [](Settings* s) { s->k_sm = -1; });
   refuse("min_sweeps", [](Settings* s) { s->min_sweeps = -1; });
@@ -279,7 +286,7 @@ TEST(Validate, RefusesEverySettingOutOfItsRange) {
   }
   refuse("time", [](Settings* s) { s->budget = Budget::Time(std::chrono::nanoseconds(-1)); });
   refuse("work", [](Settings* s) { s->budget = Budget::Work(-1); });
-  for (int bad : {-1, 0, 2}) refuse("threads", [&](Settings* s) { s->threads = bad; });
+  for (int bad : {-1, 0, 1025}) refuse("threads", [&](Settings* s) { s->threads = bad; });
   for (double bad : {0.0, 2.0, -1.0, kNan}) refuse("omega", [&](Settings* s) { s->omega = bad; });
   refuse("lifted", [](Settings* s) { s->lifted_friction = static_cast<LiftedFriction>(2); });
   refuse("policy", [](Settings* s) { s->step_policy = static_cast<StepPolicy>(-1); });

@@ -8,7 +8,8 @@
 
 namespace cairn {
 
-/// Whether the input could be used. All but kOk leave every output untouched.
+/// Whether the input could be used. All but kOk and kNotPositiveDefinite leave every output
+/// untouched.
 enum class Status {
   kOk,
   kBadSettings,   ///< A field of Settings is out of its range.
@@ -22,6 +23,11 @@ enum class Status {
   kBadParent,      ///< The parent of a friction row comes later, is itself a friction row, or
                    ///< joins other bodies.
   kBadFriction,    ///< Negative friction coefficient.
+  kBadDiagonal,    ///< A diagonal entry of the matrix is missing, zero or negative.
+  kNotSymmetric,   ///< M_ij and M_ji differ by more than rounding.
+  /// A reduced matrix could not be factorised, even with the proximal term raised to the diagonal.
+  /// The best iterate is returned: it is inside its bounds and usable.
+  kNotPositiveDefinite,
 };
 
 /// One sentence for people, without a full stop.
@@ -32,6 +38,9 @@ enum class StopReason {
   kNotStarted,  ///< The input was refused.
   kConverged,   ///< Residual <= Settings::tolerance.
   kStationary,  ///< A sweep moved no row by more than Settings::min_progress.
+  kStalled,     ///< Nothing the method has left brings the residual down: rounding decides.
+  kBrokeDown,   ///< Report::status says why.
+  kCancelled,   ///< The observer said so.
   kSweepLimit,  ///< Settings::max_sweeps done.
   kTimeSpent,   ///< Budget::Time reached.
   kWorkSpent,   ///< Budget::Work reached.
@@ -61,10 +70,21 @@ struct IslandReport {
   StopReason stop = StopReason::kNotStarted;
 };
 
+/// Where the time of a problem in matrix form went, wall clock.
+struct Phases {
+  std::chrono::nanoseconds layout{0};    ///< Checking the input, laying out rows.
+  std::chrono::nanoseconds sweeps{0};    ///< Relaxing rows.
+  std::chrono::nanoseconds ordering{0};  ///< Choosing the order of elimination.
+  std::chrono::nanoseconds analysis{0};  ///< Symbolic factorisations.
+  std::chrono::nanoseconds factorisation{0};
+  std::chrono::nanoseconds solves{0};  ///< Forward and backward substitutions.
+  std::chrono::nanoseconds other{0};   ///< Residuals, sets, step lengths, observers.
+};
+
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
   Status status = Status::kOk;
-  int bad_row = -1;   ///< First row refused, -1 if the problem is not a row.
+  int bad_row = -1;   ///< First row refused, -1 if what is wrong is not a row.
   int bad_body = -1;  ///< First body refused, -1 likewise.
 
   double residual_max = 0;      ///< Residual::max over all islands [m/s].
@@ -76,8 +96,13 @@ struct [[nodiscard]] Report {
   int steps_restored = 0;
   StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
                                               ///< any island before a sweep limit before the rest.
-  std::int64_t work = 0;                      ///< Work units spent; see Budget::Work.
-  std::chrono::nanoseconds elapsed{0};        ///< 0 unless the budget is a time.
+  /// Problems in matrix form: LcpResidual::relative. 0 for others.
+  double residual_relative = 0;
+  int analyses = 0;                     ///< Symbolic factorisations, likewise.
+  std::int64_t factor_nonzeros = 0;     ///< Entries of the largest factor, likewise.
+  std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
+  std::chrono::nanoseconds elapsed{0};  ///< 0 unless the budget is a time.
+  Phases phases;                        ///< Problems in matrix form, 0 unless the budget is a time.
   std::vector<IslandReport> islands;
 
   bool ok() const { return status == Status::kOk; }

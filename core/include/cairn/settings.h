@@ -10,6 +10,25 @@ enum class Method {
   kPgs,    ///< Projected Gauss-Seidel: sweeps only.
   kPsor,   ///< The same with over-relaxation Settings::omega.
   kPgsSm,  ///< Sweeps and subspace minimisation steps.
+  /// Sweeps and steps exactly as the paper states them, without any safeguard: for comparison. For
+  /// problems in matrix form only: a ContactProblem answers kBadSettings.
+  kPgsSmLiteral,
+  /// Mehrotra's predictor-corrector; rows without bounds stay equations. Likewise.
+  kInteriorPoint,
+};
+
+/// The order in which the rows of a problem in matrix form are swept. Rows of a ContactProblem are
+/// swept in the order given.
+enum class SweepOrder {
+  /// kColoured for a large problem that few colours suffice for, else kForward. The choice depends
+  /// on the matrix alone.
+  kAutomatic,
+  kForward,    ///< Row 0 first.
+  kReverse,    ///< Row 0 last.
+  kSymmetric,  ///< Forward and reverse in turn.
+  /// Colour by colour: rows of a colour share no entry of M, and are relaxed side by side in SIMD
+  /// lanes and threads. Same bits on every target and for any number of threads.
+  kColoured,
 };
 
 /// When a subspace step is taken (Method::kPgsSm with k_sm > 0 only).
@@ -27,6 +46,7 @@ enum class LiftedFriction {
 /// How hard to try. Plain data; Solve() rejects values out of range (Status::kBadSettings).
 struct Settings {
   Method method = Method::kPgsSm;
+  SweepOrder order = SweepOrder::kAutomatic;
 
   /// Sweeps before each subspace step, and again after it, >= 1. Five are enough to smooth what the
   /// step leaves behind; two are not.
@@ -37,16 +57,19 @@ struct Settings {
   /// Sweeps in one Solve() at most, >= 0.
   int max_sweeps = 1000;
   /// Solve() is done when no row is further from its law than this: natural residual, in [m/s] for
-  /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never.
+  /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never. For a
+  /// problem in matrix form: LcpResidual::relative.
   double tolerance = 1e-3;
   /// Solve() is also done when a whole sweep moved no row by more than this, [m/s] or [rad/s],
-  /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration.
+  /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration. For a problem in
+  /// matrix form: sqrt(sum d_i (change of x_i)^2), unit of LcpResidual::energy.
   double min_progress = 0;
   Budget budget = Budget::Unlimited();
   /// Sweeps made even if the budget is spent before them, >= 0. At 0 a budget that is too small for
   /// anything returns the warm start.
   int min_sweeps = 1;
-  /// Threads that may work on one Solve(). This version sweeps on the calling thread: only 1.
+  /// Threads that may work on one Solve(), the caller included, in [1, 1024]. This version uses
+  /// more than one for coloured sweeps of problems in matrix form only.
   int threads = 1;
 
   /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
@@ -64,6 +87,9 @@ struct Settings {
   /// Solves with the last factor of a step at most, >= 1. Those after the first refine it while no
   /// row leaves its bounds; see docs/solver.md before raising it.
   int refinements = 1;
+  /// Problems in matrix form: a row belongs to the predicted free set if it is further than this
+  /// from its bounds, unit of x, >= 0; the paper's tol.
+  double active_tolerance = 0;
 };
 
 }  // namespace cairn

@@ -1,29 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "subspace/cholesky.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <vector>
+
+#include "subspace/eigen_cholesky.h"
 
 namespace cairn {
 namespace {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Opens the column counts, which say what a factorisation will cost.
-class CountingCholesky
-    : public Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> {
- public:
-  const Eigen::VectorXi& column_counts() const { return m_nonZerosPerCol; }
-};
-
 /// Position of each body in a minimum degree order of the body graph.
 std::vector<int> OrderBodies(int bodies, std::span<const BodyPair> pairs) {
   std::vector<Eigen::Triplet<double>> edges;
   edges.reserve(bodies + 2 * pairs.size());
-  // without a diagonal Eigen takes every column for a dense one, and does not order at all
   for (int i = 0; i < bodies; ++i) edges.emplace_back(i, i, 1.0);
   for (const auto& [i, j] : pairs) {
     edges.emplace_back(i, j, 1.0);
@@ -32,10 +24,9 @@ std::vector<int> OrderBodies(int bodies, std::span<const BodyPair> pairs) {
   SparseMatrix graph(bodies, bodies);
   graph.setFromTriplets(edges.begin(), edges.end());
 
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(graph, order);
+  const std::vector<int> order = MinimumDegreeOrder(graph);
   std::vector<int> position(bodies);
-  for (int k = 0; k < bodies; ++k) position[order.indices()[k]] = k;
+  for (int k = 0; k < bodies; ++k) position[order[k]] = k;
   return position;
 }
 
@@ -55,8 +46,7 @@ struct BlockCholesky::Impl {
   std::vector<int> above;   ///< blocks above the diagonal, per block column
   std::vector<Block6, Eigen::aligned_allocator<Block6>> diagonals, uppers;
   SparseMatrix matrix;
-  CountingCholesky factor;
-  double flops = 0, nonzeros = 0;
+  EigenCholesky factor;
 
   void BuildPattern();
   double* Column(int block_column, int k) {
@@ -115,17 +105,11 @@ void BlockCholesky::Analyse(int bodies, std::span<const BodyPair> pairs) {
   impl_->uppers.resize(pairs.size());
   impl_->BuildPattern();
 
-  impl_->factor.analyzePattern(impl_->matrix);
-  impl_->flops = 0;
-  impl_->nonzeros = 0;
-  for (const double below : impl_->factor.column_counts()) {
-    impl_->flops += (below + 1) * (below + 1);
-    impl_->nonzeros += below + 1;
-  }
+  impl_->factor.Analyse(impl_->matrix);
 }
 
-double BlockCholesky::factor_flops() const { return impl_->flops; }
-double BlockCholesky::factor_nonzeros() const { return impl_->nonzeros; }
+double BlockCholesky::factor_flops() const { return impl_->factor.flops(); }
+double BlockCholesky::factor_nonzeros() const { return impl_->factor.nonzeros(); }
 Block6& BlockCholesky::diagonal(int body) { return impl_->diagonals[body]; }
 Block6& BlockCholesky::upper(int pair) { return impl_->uppers[pair]; }
 
@@ -149,15 +133,14 @@ bool BlockCholesky::Factorise() {
       Eigen::Map<Eigen::VectorXd>(column, k + 1) = impl_->diagonals[body].col(k).head(k + 1);
     }
   }
-  impl_->factor.factorize(impl_->matrix);
-  return impl_->factor.info() == Eigen::Success;
+  return impl_->factor.Factorise(impl_->matrix);
 }
 
 void BlockCholesky::Solve(std::span<Vector6d> rhs) const {
   const size_t bodies = rhs.size();
   Eigen::VectorXd ordered(6 * bodies);
   for (size_t i = 0; i < bodies; ++i) ordered.segment<6>(6 * impl_->position[i]) = rhs[i];
-  ordered = impl_->factor.solve(ordered).eval();
+  impl_->factor.Solve(&ordered);
   for (size_t i = 0; i < bodies; ++i) rhs[i] = ordered.segment<6>(6 * impl_->position[i]);
 }
 

@@ -15,7 +15,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using BodyPair = std::pair<int, int>;
 
 /// Cholesky factor of a sparse symmetric positive definite matrix of 6 x 6 blocks, one block row a
-/// body. The only user of Eigen's sparse factorisations and orderings.
+/// body.
 class BlockCholesky {
  public:
   BlockCholesky();
