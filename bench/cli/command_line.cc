@@ -49,7 +49,8 @@ void CompleteCommand(const std::vector<std::string>& commands,
 
 std::string WithoutPaths(const std::vector<std::string>& arguments) {
   std::string text = "cairn";
-  for (const std::string& word : arguments) {
+  for (std::string word : arguments) {
+    while (word.size() > 1 && word.ends_with('/')) word.pop_back();
     const size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
     const size_t start = equals == std::string::npos ? 0 : equals + 1;
     const size_t slash = word.rfind('/');
@@ -69,6 +70,28 @@ long long ParseCount(std::string_view option, std::string_view text, long long l
                                       text, least, most, meaning));
   }
   return value;
+}
+
+double ParseNumber(std::string_view option, std::string_view text, double least, double most,
+                   std::string_view meaning) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  // A NaN is in no range.
+  if (error != std::errc{} || rest != end || !(value >= least && value <= most)) {
+    throw Failure(kUsage, fmt::format("{} '{}': write a number from {:g} to {:g} ({})", option,
+                                      text, least, most, meaning));
+  }
+  return value;
+}
+
+ProgressMode ParseProgress(const OutputWords& words) {
+  const std::vector<std::string> names = {"auto", "always", "never"};
+  constexpr ProgressMode kModes[] = {ProgressMode::kAuto, ProgressMode::kAlways,
+                                     ProgressMode::kNever};
+  const ProgressMode mode =
+      kModes[FindName("progress mode", words.progress, names, "write auto, always or never")];
+  return words.quiet ? ProgressMode::kNever : mode;
 }
 
 }  // namespace cairn::cli

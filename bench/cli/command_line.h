@@ -5,6 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/command.h"
+#include "cli/progress.h"
+
 namespace cairn::cli {
 
 /// Takes `--float64` and `--precision P` out of the arguments.
@@ -22,5 +25,12 @@ std::string WithoutPaths(const std::vector<std::string>& arguments);
 /// in the message what the option is.
 long long ParseCount(std::string_view option, std::string_view text, long long least,
                      long long most, std::string_view meaning);
+
+/// A number in [least, most], "0.5" or "1e-6". @throws Failure (kUsage) likewise.
+double ParseNumber(std::string_view option, std::string_view text, double least, double most,
+                   std::string_view meaning);
+
+/// When progress is shown. @throws Failure (kUsage)
+ProgressMode ParseProgress(const OutputWords& words);
 
 }  // namespace cairn::cli

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "cli/json_output.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/duration.h"
+#include "cli/json_number.h"
 #include "cli/summary.h"
 
 namespace cairn::cli {
@@ -12,48 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no NaN and no infinity.
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-template <class T>
-Json Maybe(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 template <class Member>
 Json PerFrame(const SolverResult& solver, Member member) {
   Json values = Json::array();
   for (const Frame& frame : solver.frames) values.push_back(Number(frame.*member));
   return values;
-}
-
-Json ToJson(const BuildInfo& build) {
-  return {{"cairn", build.version},
-          {"compiler", build.compiler},
-          {"build_type", build.build_type},
-          {"bullet",
-           {{"version", build.bullet_version},
-            {"precision", build.bullet_precision},
-            {"rows", build.bullet_rows},
-            {"threads", build.bullet_threads},
-            {"library", build.bullet_library}}}};
-}
-
-Json Context(const RunResult& run) {
-  return {{"date", run.date},
-          {"command", run.command},
-          {"host",
-           {{"cpu", run.machine.cpu},
-            {"cores", run.machine.cores},
-            {"governor", run.machine.governor},
-            {"load_average", run.machine.load_average},
-            {"simd_target", run.simd_target}}},
-          {"build", ToJson(run.build)},
-          {"noise",
-           {{"median_ms", Number(run.noise.median)},
-            {"p99_over_median", Number(run.noise.p99_over_median)},
-            {"threshold_percent", Number(run.noise.threshold)},
-            {"verdict", run.noise.verdict}}}};
 }
 
 Json ToJson(const Summary& s) {
@@ -124,7 +87,7 @@ std::string ToJson(const RunResult& run) {
   Json scenes = Json::array();
   for (const SceneResult& scene : run.scenes) scenes.push_back(ToJson(scene, run));
   const Json json = {{"schema", 1},
-                     {"context", Context(run)},
+                     {"context", ToJson(static_cast<const RunContext&>(run))},
                      {"frames", run.frames},
                      {"budget_ms", run.budget ? Json(Milliseconds(*run.budget)) : Json(nullptr)},
                      {"scenes", scenes}};

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/lcp_solvers.h"
+#include "cli/problem_choice.h"
 #include "cli/scene_choice.h"
 #include "cli/solver_registry.h"
 
@@ -27,12 +29,49 @@ void ListScenes(ListForm form) {
   if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
 }
 
+void ListProblems(ListForm form) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const problems::Generator& generator : KnownGenerators()) {
+    if (form == ListForm::kText) {
+      fmt::print("{:<18} {}; size {} ({} to {} {})\n", generator.name, generator.help,
+                 generator.size, generator.min_size, generator.max_size, generator.size_help);
+    }
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+    for (const problems::Parameter& parameter : generator.parameters) {
+      if (form == ListForm::kText) {
+        fmt::print("  {:<16} {}; {:g} ({:g} to {:g})\n", parameter.name, parameter.help,
+                   parameter.value, parameter.min, parameter.max);
+      }
+      parameters.push_back({{"name", parameter.name},
+                            {"description", parameter.help},
+                            {"default", parameter.value},
+                            {"min", parameter.min},
+                            {"max", parameter.max}});
+    }
+    json.push_back({{"name", generator.name},
+                    {"description", generator.help},
+                    {"size_means", generator.size_help},
+                    {"default_size", generator.size},
+                    {"min_size", generator.min_size},
+                    {"max_size", generator.max_size},
+                    {"parameters", parameters}});
+  }
+  if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+}
+
 void ListSolvers(ListForm form) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const SolverEntry& solver : Solvers()) {
-    if (form == ListForm::kText) fmt::print("{:<16} {}\n", solver.name, solver.description);
-    json.push_back({{"name", solver.name}, {"description", solver.description}});
-  }
+  const auto add = [&](const auto& solvers, std::string_view command) {
+    for (const auto& solver : solvers) {
+      if (form == ListForm::kText) {
+        fmt::print("{:<21} {:<6} {}\n", solver.name, command, solver.description);
+      }
+      json.push_back(
+          {{"name", solver.name}, {"command", command}, {"description", solver.description}});
+    }
+  };
+  add(Solvers(), "run");
+  add(LcpSolvers(), "solve");
   if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
 }
 

@@ -5,8 +5,9 @@ namespace cairn::cli {
 
 enum class ListForm { kText, kJson };
 
-/// `cairn list scenes` and `cairn list solvers`, to stdout.
+/// `cairn list scenes`, `cairn list problems` and `cairn list solvers`, to stdout.
 void ListScenes(ListForm form);
+void ListProblems(ListForm form);
 void ListSolvers(ListForm form);
 
 }  // namespace cairn::cli

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/build_info.h"
-#include "cli/machine.h"
+#include "cli/run_context.h"
 
 namespace cairn::cli {
 
@@ -68,13 +67,7 @@ struct SceneResult {
 };
 
 /// Everything a run knows, for every form of output.
-struct RunResult {
-  std::string date;     ///< ISO 8601, UTC
-  std::string command;  ///< Without paths.
-  BuildInfo build;
-  Machine machine;
-  Noise noise;
-  std::string simd_target;
+struct RunResult : RunContext {
   std::optional<std::chrono::nanoseconds> budget;
   int frames = 0;  ///< asked for
   std::vector<SceneResult> scenes;

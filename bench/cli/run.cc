@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cli/run.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <memory>
 #include <vector>
 
 #include "cli/error_sampler.h"
 #include "cli/lane.h"
 #include "cli/sample_plan.h"
-#include "simd/target.h"
 
 namespace cairn::cli {
 namespace {
@@ -88,15 +85,7 @@ class SceneRun {
 }  // namespace
 
 RunResult Run(const RunOptions& options, const std::string& command) {
-  RunResult result;
-  result.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-  result.command = command;
-  result.build = DescribeBuild();
-  result.machine = DescribeMachine();
-  result.noise = MeasureNoise(std::chrono::milliseconds(300));
-  result.simd_target = simd::TargetName(simd::ChooseTarget().target);
-  result.budget = options.budget;
-  result.frames = options.frames;
+  RunResult result{DescribeContext(command), options.budget, options.frames, {}};
 
   Progress progress(options.progress);
   for (const SceneChoice& scene : options.scenes) {

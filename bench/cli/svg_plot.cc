@@ -51,18 +51,41 @@ std::string LineStyle(int style) {
 
 /// Maps values to places in a LinePlot.
 struct Axes {
-  double x_most = 1;
+  LinePlot::Scale x_scale = LinePlot::Scale::kLinear;
+  double x_least = 0, x_most = 1;
   double low = 1e-3, high = 1;  ///< Decades, or less if the values are close together.
 
-  double X(double x) const { return kLeft + (kWidth - kLeft - kRight) * x / x_most; }
+  double X(double x) const {
+    const double share =
+        x_scale == LinePlot::Scale::kLinear
+            ? x / x_most
+            : std::log(std::max(x, x_least) / x_least) / std::log(x_most / x_least);
+    return kLeft + (kWidth - kLeft - kRight) * share;
+  }
   double Y(double y) const {
     const double share = std::log(std::clamp(y, low, high) / low) / std::log(high / low);
     return kHeight - kBottom - (kHeight - kTop - kBottom) * share;
   }
 };
 
+/// Whole decades around the positive x of the series.
+void FitHorizontally(const LinePlot& plot, Axes* axes) {
+  double least = INFINITY, most = 0;
+  for (const Series& series : plot.series) {
+    for (const double x : series.x) {
+      if (x > 0) least = std::min(least, x);
+      most = std::max(most, x);
+    }
+  }
+  axes->x_scale = LinePlot::Scale::kLogarithmic;
+  axes->x_least = most > 0 ? std::pow(10, std::floor(std::log10(least))) : 1;
+  axes->x_most = most > 0 ? std::pow(10, std::ceil(std::log10(most))) : 10;
+  if (axes->x_most == axes->x_least) axes->x_most *= 10;
+}
+
 Axes AxesOf(const LinePlot& plot) {
   Axes axes{.x_most = std::max(1.0, plot.x_most)};
+  if (plot.x_scale == LinePlot::Scale::kLogarithmic) FitHorizontally(plot, &axes);
   double least = INFINITY, most = 0;
   const auto add = [&](double y) {
     if (!(y > 0) || !std::isfinite(y)) return;
@@ -74,9 +97,10 @@ Axes AxesOf(const LinePlot& plot) {
   }
   if (plot.limit) add(*plot.limit);
   if (most == 0) return axes;
-  // More than eight decades are a solver that is exact, or one that exploded: cut off below.
+  // More decades are a solver that is exact, or one that exploded: cut off below.
   axes.high = std::pow(10, std::ceil(std::log10(most * 1.05)));
-  axes.low = std::max(std::pow(10, std::floor(std::log10(least * 0.95))), axes.high * 1e-8);
+  axes.low = std::max(std::pow(10, std::floor(std::log10(least * 0.95))),
+                      axes.high * std::pow(10, -plot.most_decades));
   return axes;
 }
 
@@ -89,7 +113,25 @@ double RoundStep(double least) {
   return 10 * decade;
 }
 
-std::string Grid(const Axes& axes, const std::string& unit) {
+/// Labels below: round steps, or decades.
+std::string HorizontalLabels(const Axes& axes) {
+  std::string svg;
+  const auto add = [&](double x) {
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>", axes.X(x),
+                       kHeight - kBottom + 16, x);
+  };
+  if (axes.x_scale == LinePlot::Scale::kLinear) {
+    const double step = RoundStep(axes.x_most / 4);
+    for (double x = 0; x <= axes.x_most; x += step) add(x);
+  } else {
+    const int first = static_cast<int>(std::lround(std::log10(axes.x_least)));
+    const int last = static_cast<int>(std::lround(std::log10(axes.x_most)));
+    for (int exponent = first; exponent <= last; ++exponent) add(std::pow(10, exponent));
+  }
+  return svg;
+}
+
+std::string Grid(const Axes& axes, const LinePlot& plot) {
   std::string svg;
   const double decades = std::log10(axes.high / axes.low);
   const int stride = decades > 5 ? 2 : 1;
@@ -102,15 +144,12 @@ std::string Grid(const Axes& axes, const std::string& unit) {
         "<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>",
         kLeft, kWidth - kRight, y, y, kLeft - 6, y + 4, value);
   }
-  const double step = RoundStep(axes.x_most / 4);
-  for (double x = 0; x <= axes.x_most; x += step) {
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>", axes.X(x),
-                       kHeight - kBottom + 16, x);
-  }
-  return svg + fmt::format(
-                   "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">frame</text>"
-                   "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>",
-                   kWidth - kRight, kHeight - 8, kLeft - 6, kTop - 10, Escape(unit));
+  return svg + HorizontalLabels(axes) +
+         fmt::format(
+             "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>"
+             "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{}</text>",
+             kWidth - kRight, kHeight - 8, Escape(plot.x_label), kLeft - 6, kTop - 10,
+             Escape(plot.unit));
 }
 
 std::string Line(const Series& series, const Axes& axes) {
@@ -140,7 +179,7 @@ std::string LinePlot::ToSvg() const {
   std::string svg = fmt::format(
       "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">"
       "<text class=\"t\" x=\"{}\" y=\"14\">{}</text>{}",
-      kWidth, kHeight, Escape(title), kLeft, Escape(title), Grid(axes, unit));
+      kWidth, kHeight, Escape(title), kLeft, Escape(title), Grid(axes, *this));
   for (const Series& line : series) svg += Line(line, axes);
   if (limit) {
     svg += fmt::format(

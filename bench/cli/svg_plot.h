@@ -8,7 +8,7 @@
 
 namespace cairn::cli {
 
-/// Values over frames; NaN leaves a gap.
+/// Values over frames, or over time; NaN leaves a gap.
 struct Series {
   std::string label;
   int style = 0;  ///< Colour, dashes and marker; see StyleOf().
@@ -17,10 +17,18 @@ struct Series {
 
 /// A picture of lines, the vertical axis logarithmic. Values of 0 are drawn at the lower edge.
 struct LinePlot {
+  enum class Scale {
+    kLinear,       ///< From 0 to x_most.
+    kLogarithmic,  ///< From the least positive x of the series to the largest; x of 0 at the edge.
+  };
   std::string title;
   std::string unit;  ///< of the vertical axis
   std::vector<Series> series;
-  double x_most = 1;            ///< Right end of the horizontal axis: the number of frames.
+  Scale x_scale = Scale::kLinear;
+  std::string x_label = "frame";
+  double x_most = 1;  ///< Right end of a linear axis: the number of frames.
+  /// Of the vertical axis at most; what is smaller is a solver that is exact.
+  double most_decades = 8;
   std::optional<double> limit;  ///< A horizontal line.
   std::string limit_label;
 

@@ -8,8 +8,11 @@
 namespace cairn::cli {
 namespace {
 
-std::string Pad(const std::string& text, size_t width, size_t column) {
-  return column == 0 ? fmt::format("{:<{}}", text, width) : fmt::format("  {:>{}}", text, width);
+enum class Align { kLeft, kRight };
+
+std::string Pad(const std::string& text, size_t width, Align align) {
+  return align == Align::kLeft ? fmt::format("{:<{}}", text, width)
+                               : fmt::format("{:>{}}", text, width);
 }
 
 void EndLine(std::string* text) {
@@ -29,15 +32,22 @@ std::string TextTable::ToText() const {
     }
     widths.push_back(width);
   }
+  const auto cell = [&](const std::string& text, size_t i) {
+    return (i == 0 ? "" : "  ") + Pad(text, widths[i], i < names ? Align::kLeft : Align::kRight);
+  };
+  const bool has_units = std::any_of(columns.begin(), columns.end(),
+                                     [](const Column& column) { return !column.unit.empty(); });
   std::string text;
-  for (size_t i = 0; i < columns.size(); ++i) text += Pad(columns[i].name, widths[i], i);
+  for (size_t i = 0; i < columns.size(); ++i) text += cell(columns[i].name, i);
   EndLine(&text);
-  for (size_t i = 0; i < columns.size(); ++i) text += Pad(columns[i].unit, widths[i], i);
-  EndLine(&text);
+  if (has_units) {
+    for (size_t i = 0; i < columns.size(); ++i) text += cell(columns[i].unit, i);
+    EndLine(&text);
+  }
   for (const auto& row : rows) {
     for (size_t i = 0; i < row.size(); ++i) {
       const bool is_remark = row.size() < columns.size() && i + 1 == row.size();
-      text += is_remark ? "  " + row[i] : Pad(row[i], widths[i], i);
+      text += is_remark ? "  " + row[i] : cell(row[i], i);
     }
     EndLine(&text);
   }
@@ -49,7 +59,7 @@ std::string TextTable::ToMarkdown() const {
   for (size_t i = 0; i < columns.size(); ++i) {
     text += fmt::format(" {}{} |", columns[i].name,
                         columns[i].unit.empty() ? "" : " [" + columns[i].unit + "]");
-    rule += i == 0 ? " :-- |" : " --: |";
+    rule += i < names ? " :-- |" : " --: |";
   }
   text += "\n" + rule + "\n";
   for (const auto& row : rows) {

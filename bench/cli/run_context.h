@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "cli/build_info.h"
+#include "cli/machine.h"
+
+namespace cairn::cli {
+
+/// Where, when and how results were made.
+struct RunContext {
+  std::string date;     ///< ISO 8601, UTC
+  std::string command;  ///< Without paths.
+  BuildInfo build;
+  Machine machine;
+  Noise noise;
+  std::string simd_target;
+};
+
+/// Looks at this machine; takes 0.3 s.
+/// @param command  what was typed
+RunContext DescribeContext(const std::string& command);
+
+nlohmann::ordered_json ToJson(const RunContext& context);
+
+}  // namespace cairn::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "cli/lcp_solvers.h"
+#include "cli/problem_choice.h"
+#include "cli/progress.h"
+
+namespace cairn::cli {
+
+/// Where solvers begin.
+enum class StartRule {
+  kZero,
+  kWarm,    ///< With what the problem brings, zeros if that is nothing.
+  kNested,  ///< With the solution of the next coarser grid, found in the same way.
+};
+
+/// What `cairn solve` was asked for, checked.
+struct SolveOptions {
+  std::vector<ProblemChoice> problems;
+  std::vector<SkippedFolder> skipped;
+  std::vector<const LcpSolverEntry*> solvers;
+  LcpOptions solver;
+  /// Errors at which the time is taken, falling; empty: errors are not measured at all.
+  std::vector<double> errors;
+  StartRule start = StartRule::kWarm;
+  int repeat = 1;  ///< Solves that are timed; their median counts.
+  ProgressMode progress = ProgressMode::kAuto;
+};
+
+/// The word a user types for it.
+const char* Name(StartRule start);
+const char* Name(SweepOrder order);
+
+}  // namespace cairn::cli
