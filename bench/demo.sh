@@ -22,13 +22,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 budget="${BUDGET:-16ms}"
 frames="${FRAMES:-300}"
 
-bash cmake/install-packages.sh build
-echo "== Building the cairn tool"
-# The folder of the tests, so that nothing is built twice; a first build here does without the tests.
-first=()
-[[ -f build/release/CMakeCache.txt ]] || first=(-DCAIRN_TESTS=OFF)
-cmake --preset release "${first[@]}"
-cmake --build --preset release -j "$(nproc)" --target cairn_tool
+bash bench/build-tool.sh build
 
 mkdir -p out
 run=(build/release/bin/cairn run castle

@@ -265,31 +265,26 @@ std::string ReadingHelp(const SolveResult& result) {
   return help + fmt::format("Machine: {}, {}.\n", result.machine.cpu, result.noise.verdict);
 }
 
+namespace {
+
+std::vector<TextTable> TablesWithRows(const SolveResult& result) {
+  std::vector<TextTable> tables = {WorkTable(result), ErrorTable(result), AnswerTable(result),
+                                   PhaseTable(result)};
+  std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
+  return tables;
+}
+
+}  // namespace
+
 std::string ToText(const SolveResult& result) {
-  std::string text = Heading(result) + "\n" + WorkTable(result).ToText();
-  if (const TextTable errors = ErrorTable(result); !errors.rows.empty()) {
-    text += fmt::format("\n{}", errors.ToText());
-  }
-  if (const TextTable answers = AnswerTable(result); !answers.rows.empty()) {
-    text += fmt::format("\n{}", answers.ToText());
-  }
-  if (const TextTable phases = PhaseTable(result); !phases.rows.empty()) {
-    text += fmt::format("\n{}", phases.ToText());
-  }
+  std::string text = Heading(result);
+  for (const TextTable& table : TablesWithRows(result)) text += "\n" + table.ToText();
   return fmt::format("{}\n{}\n", text, SolvedSummary(result));
 }
 
 std::string ToMarkdown(const SolveResult& result) {
-  std::string text = Heading(result) + "\n" + WorkTable(result).ToMarkdown();
-  if (const TextTable errors = ErrorTable(result); !errors.rows.empty()) {
-    text += fmt::format("\n{}", errors.ToMarkdown());
-  }
-  if (const TextTable answers = AnswerTable(result); !answers.rows.empty()) {
-    text += fmt::format("\n{}", answers.ToMarkdown());
-  }
-  if (const TextTable phases = PhaseTable(result); !phases.rows.empty()) {
-    text += fmt::format("\n{}", phases.ToMarkdown());
-  }
+  std::string text = Heading(result);
+  for (const TextTable& table : TablesWithRows(result)) text += "\n" + table.ToMarkdown();
   return text + "\n" + SolvedSummary(result) + "\n" + ReadingHelp(result) +
          fmt::format("\nCommand: `{}`\n", result.command);
 }

@@ -49,7 +49,6 @@ class LcpState {
   /// Measures x, keeps it if it is the best so far, and ends the iteration if it is good enough.
   /// The first one judged has to be finite. Returns its relative residual.
   double Judge();
-  double best_residual() const { return best_residual_; }
   /// x becomes the best iterate. @pre Judge() was called
   void Restore() { x = best_x_; }
 
