@@ -4,7 +4,9 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: bash bench/paper.sh
+usage: bash bench/paper.sh [--keep]
+
+  --keep   measure only what out/paper does not hold yet
 
 Builds the cairn tool, solves every problem of docs/paper.md, writes it and its figures. 15 to 30 minutes.
 Environment: CAIRN_PROBLEMS, a folder of problems in the format of `cairn solve` (../shared/problems/open);
@@ -22,4 +24,4 @@ esac
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bash bench/build-tool.sh build peers
 python3 bench/paper/paper.py --cairn build/release/bin/cairn --out out/paper --docs docs \
-  --problems "${CAIRN_PROBLEMS:-../shared/problems/open}"
+  --problems "${CAIRN_PROBLEMS:-../shared/problems/open}" "$@"

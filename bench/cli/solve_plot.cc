@@ -26,7 +26,8 @@ LinePlot PlotOf(const ProblemResult& problem) {
   const bool errors = problem.truth != Yardstick::Truth::kNone;
   LinePlot plot;
   plot.title = problem.name;
-  plot.unit = !errors ? "residual" : "error of " + problem.truth_name;
+  if (errors) plot.title += ", error of " + problem.truth_name;
+  plot.unit = errors ? "error" : "residual";
   plot.x_scale = LinePlot::Scale::kLogarithmic;
   plot.x_label = "time [ms]";
   plot.most_decades = kDecades;

@@ -278,13 +278,14 @@ std::vector<TextTable> TablesWithRows(const SolveResult& result) {
 
 std::string ToText(const SolveResult& result) {
   std::string text = Heading(result);
-  for (const TextTable& table : TablesWithRows(result)) text += "\n" + table.ToText();
+  for (const TextTable& table : TablesWithRows(result)) text += fmt::format("\n{}", table.ToText());
   return fmt::format("{}\n{}\n", text, SolvedSummary(result));
 }
 
 std::string ToMarkdown(const SolveResult& result) {
   std::string text = Heading(result);
-  for (const TextTable& table : TablesWithRows(result)) text += "\n" + table.ToMarkdown();
+  for (const TextTable& table : TablesWithRows(result))
+    text += fmt::format("\n{}", table.ToMarkdown());
   return text + "\n" + SolvedSummary(result) + "\n" + ReadingHelp(result) +
          fmt::format("\nCommand: `{}`\n", result.command);
 }

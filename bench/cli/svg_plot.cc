@@ -117,8 +117,10 @@ double RoundStep(double least) {
 std::string HorizontalLabels(const Axes& axes) {
   std::string svg;
   const auto add = [&](double x) {
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}</text>", axes.X(x),
-                       kHeight - kBottom + 16, x);
+    // the last one would stick out
+    const bool last = axes.X(x) > kWidth - kRight - 1;
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}</text>", axes.X(x),
+                       kHeight - kBottom + 16, last ? "end" : "middle", x);
   };
   if (axes.x_scale == LinePlot::Scale::kLinear) {
     const double step = RoundStep(axes.x_most / 4);

@@ -8,7 +8,10 @@ from text import count, small, table, time
 SWEEPS = 50000
 ILL = 1e6  # condition number from which a problem counts as ill conditioned
 LARGE = 1000
-PEERS = "siconos-pgs,siconos-lemke,siconos-newton-min-fb"
+# Solvers of Siconos and their limit of iterations; the dense ones only up to so many inequalities.
+SPARSE_PEERS = {"siconos-pgs": 5000}
+DENSE_PEERS = {"siconos-lemke": 20000, "siconos-newton-min-fb": 100}
+MOST_DENSE = 1100
 
 
 def solve_all(tool, folder):
@@ -60,20 +63,26 @@ def ill_conditioned(tool, folder, names):
     return table(["problem", "n", "PSOR", "pgs-sm", "ipm", "PSOR / pgs-sm", "fact. pgs-sm", "ipm", "fewer"], rows)
 
 
-def siconos(tool, folder, names):
-    runs = [(name, [os.path.join(folder, name)]) for name in names]
-    runs += [("journal-bearing", ["journal-bearing"]), ("american-put-step", ["american-put-step"])]
+def fastest(solvers):
+    right = [solver for solver in solvers if solver["error"] is not None and solver["error"] <= 1e-6]
+    return min(right, key=lambda solver: solver["time_ms"], default=None)
+
+
+def siconos(tool, folder, inequalities):
+    runs = {name: [os.path.join(folder, name)] for name in inequalities}
+    runs.update({name: [name] for name in ("journal-bearing", "american-put-step")})
     rows = []
-    for name, words in runs:
-        problem = tool.solve("siconos-" + name, *words, "--solver", PEERS + ",pgs-sm,ipm", "--errors", "1e-6",
-                             "--max-sweeps", 20000, "--tolerance", "1e-8", "--repeat", 3)["problems"][0]
-        peers = [solver for solver in problem["solvers"] if solver["solver"].startswith("siconos-")]
-        right = [solver for solver in peers if solver["error"] is not None and solver["error"] <= 1e-6]
-        best = min(right, key=lambda solver: solver["time_ms"], default=None)
-        ours = [solver for solver in problem["solvers"] if solver not in peers]
-        ours = [solver for solver in ours if solver["error"] is not None and solver["error"] <= 1e-6]
-        mine = min(ours, key=lambda solver: solver["time_ms"], default=None)
-        rows.append([problem["problem"], count(problem["n"]), best["solver"] if best else "none",
+    for name, words in runs.items():
+        def solve(solvers, limit):
+            return tool.solve(f"siconos-{name}-{solvers}", *words, "--solver", solvers, "--errors", "1e-6",
+                              "--max-sweeps", limit, "--tolerance", "1e-8")["problems"][0]
+
+        ours = solve("pgs-sm,ipm", SWEEPS)
+        dense = inequalities.get(name, ours["n"]) <= MOST_DENSE
+        limits = {**SPARSE_PEERS, **(DENSE_PEERS if dense else {})}
+        theirs = [solve(peer, limit)["solvers"][0] for peer, limit in limits.items()]
+        best, mine = fastest(theirs), fastest(ours["solvers"])
+        rows.append([ours["problem"], count(ours["n"]), best["solver"] if best else "none",
                      time(best and best["time_ms"]), mine["solver"] if mine else "none",
                      time(mine and mine["time_ms"]),
                      f"{best['time_ms'] / mine['time_ms']:.1f}" if best and mine else "-"])

@@ -11,10 +11,12 @@ import sources
 from run import Tool
 
 
-def condition_of(folder, name):
+def facts_of(folder, name):
     with open(os.path.join(folder, name, "meta.json"), encoding="utf-8") as file:
         meta = json.load(file)
-    return meta.get("cond") or 0, meta["n"], meta["kind"]
+    # the suffix says 1e6 where the number in the file is a rounding below
+    ill = meta["kind"] == "mlcp" and (meta.get("cond") or 0) >= 0.99 * collection.ILL
+    return {"ill": ill, "n": meta["n"], "inequalities": meta["n"] - meta.get("n_a", 0)}
 
 
 def collection_text(tool, folder):
@@ -22,10 +24,9 @@ def collection_text(tool, folder):
         return {key: f"Left out: {os.path.basename(folder)} was not there.\n"
                 for key in ("summary", "everything", "ill", "siconos")}
     problems = collection.solve_all(tool, folder)
-    facts = {problem["problem"]: condition_of(folder, problem["problem"]) for problem in problems}
-    # the suffix says 1e6 where the number in the file is a rounding below
-    ill = [name for name, (cond, _, kind) in facts.items() if kind == "mlcp" and cond >= 0.99 * collection.ILL]
-    large = [name for name, (_, n, _) in facts.items() if n >= collection.LARGE]
+    facts = {problem["problem"]: facts_of(folder, problem["problem"]) for problem in problems}
+    ill = [name for name, fact in facts.items() if fact["ill"]]
+    large = {name: fact["inequalities"] for name, fact in facts.items() if fact["n"] >= collection.LARGE}
     return {"summary": collection.summary(problems), "everything": collection.everything(problems),
             "ill": collection.ill_conditioned(tool, folder, ill),
             "siconos": collection.siconos(tool, folder, large)}
@@ -37,9 +38,10 @@ def main():
     parser.add_argument("--out", required=True, help="folder for what was measured")
     parser.add_argument("--docs", required=True, help="folder that gets paper.md")
     parser.add_argument("--problems", required=True, help="folder of problems of others")
+    parser.add_argument("--keep", action="store_true", help="measure only what --out does not hold yet")
     args = parser.parse_args()
 
-    tool = Tool(args.cairn, args.out)
+    tool = Tool(args.cairn, args.out, args.keep)
     castles = rigid.solve_all(tool)
     context = tool.solve("machine", "castle", "--size", 1)["context"]
     values = {"cpu": context["host"]["cpu"], "cores": context["host"]["cores"], "date": context["date"][:10],

@@ -35,7 +35,7 @@ def options(tool):
 
 def fluids(tool):
     runs = [["journal-bearing", "--size", size, "--set", f"eccentricity={e}", "--start", "nested"]
-            for size, e in ((100, 0.1), (400, 0.1), (75, 0.5), (75, 0.9))]
+            for size, e in ((98, 0.1), (400, 0.1), (73, 0.5), (73, 0.9))]
     runs += [["infinite-bearing", "--set", f"eccentricity={e}"] for e in (0.1, 0.5, 0.8, 0.9)]
     runs += [["slider"], ["obstacle", "--size", 200, "--start", "nested"],
              ["torsion", "--start", "nested"], ["obstacle-two-sided", "--start", "nested"]]

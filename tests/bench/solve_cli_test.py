@@ -435,7 +435,7 @@ class HistoryTest(SolveTestCase):
             text = file.read()
         picture = xml.etree.ElementTree.fromstring(text)
         self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
-        for words in ("pgs-sm", "time [ms]", ">a<", ">b<", "error of x"):
+        for words in ("pgs-sm", "time [ms]", ">a, error of x<", ">b, error of best<", ">error<"):
             self.assertIn(words, text)
         for words in ("nan", "inf", "href", "<script"):
             self.assertNotIn(words, text)

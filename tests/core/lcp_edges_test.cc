@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "cairn/contact_problem.h"
@@ -143,6 +144,24 @@ TEST(Lcp, WithoutRoomAnywhereIsSolvedAtOnce) {
     EXPECT_EQ(s.report.stop, StopReason::kConverged);
     EXPECT_TRUE(test::SameBits(s.x, problem.lo));
   });
+}
+
+// A string over a floor, pulled up on its first half and down on its second: it lifts more than 1e4
+// times what one point alone asks for. From a start of that size steps are short and lead nowhere.
+TEST(InteriorPoint, FindsASolutionFarLargerThanItsStart) {
+  constexpr int kPoints = 1000;
+  Eigen::SparseMatrix<double> m(kPoints, kPoints);
+  VectorXd q(kPoints);
+  for (int i = 0; i < kPoints; ++i) {
+    m.insert(i, i) = 2;
+    if (i > 0) m.insert(i - 1, i) = m.insert(i, i - 1) = -1;
+    q[i] = -std::sin(2 * std::numbers::pi * (i + 1) / (kPoints + 1));
+  }
+  const BoxedLcp problem = test::Complementary(m, q);
+  const LcpSolution s = test::Solve(test::Until(Method::kInteriorPoint, 1e-9), problem);
+  EXPECT_EQ(s.report.stop, StopReason::kConverged);
+  EXPECT_LE(s.report.residual_relative, 1e-9);
+  EXPECT_GT(s.x.maxCoeff(), 1e4);
 }
 
 // Boxes of one to a thousand roundings: nothing fits between, and nothing may divide by it.

@@ -19,8 +19,11 @@ constexpr double kNarrow = 1e-10, kTiny = 1e-16;
 /// Proximal term of the factorisation relative to the diagonal, and the most it is raised to.
 constexpr double kLeastShift = 1e-14, kMostShift = 1e-7;
 
-/// Iterations that may bring nothing, and what counts as something.
-constexpr int kPatience = 10;
+/// Iterations that may bring nothing before the method ends, or starts again this much further from
+/// the bounds if it is not feasible yet; and how often.
+constexpr int kPatience = 10, kMostRestarts = 3;
+constexpr double kLarger = 1000;
+constexpr double kFeasible = 1e-6;
 constexpr double kLess = 0.9;
 /// Infeasibility and complementarity below these, relative to the problem, are rounding.
 constexpr double kRoundingOfW = 1e-14, kRoundingOfGap = 1e-12;
@@ -32,36 +35,50 @@ double LargestWhere(const Eigen::VectorXd& values, const Eigen::VectorXd& diagon
 }  // namespace
 
 Barrier::Barrier(LcpState* state, SparseCholesky* factor, const Eigen::VectorXd& start)
-    : state_(state), factor_(factor), x_(start), moves_(start.size()), shift_(kLeastShift) {
+    : state_(state), factor_(factor), start_(start), moves_(start.size()), shift_(kLeastShift) {
   const BoxedLcp& problem = state->problem();
   const Eigen::VectorXd& d = state->diagonal();
 
   // how far from its law the worst row is, in the square root of the unit of x w
-  Eigen::VectorXd w = state->Slack(x_);
-  Eigen::VectorXd natural = x_ - w.cwiseQuotient(d);
+  const Eigen::VectorXd w = state->Slack(start);
+  Eigen::VectorXd natural = start - w.cwiseQuotient(d);
   Clamp(problem, &natural);
-  const double worst = LargestWhere((x_ - natural).cwiseProduct(d), d);
-  const double inside = std::max({worst, kInside * LargestWhere(w, d), 1e-300});
+  const double worst = LargestWhere((start - natural).cwiseProduct(d), d);
+  inside_ = std::max({worst, kInside * LargestWhere(w, d), 1e-300});
 
-  for (Eigen::Index i = 0; i < x_.size(); ++i) {
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
     const double lo = problem.lo[i], hi = problem.hi[i];
-    const double least = std::min(inside / std::sqrt(d[i]), kShareOfBox * (hi - lo));
     const double narrow =
-        std::max(kNarrow * std::max(std::abs(lo), std::abs(hi)), kTiny * inside / std::sqrt(d[i]));
+        std::max(kNarrow * std::max(std::abs(lo), std::abs(hi)), kTiny * inside_ / std::sqrt(d[i]));
     moves_[i] = std::isinf(hi - lo) || hi - lo > narrow;
-    if (moves_[i]) x_[i] = std::min(std::max(x_[i], lo + least), hi - least);
   }
   {
     const PhaseClock clock = state_->Time(&Phases::analysis);
     factor_->Choose(moves_);
   }
-  w = state->Slack(x_);
+  Begin();
+}
+
+void Barrier::Begin() {
+  const BoxedLcp& problem = state_->problem();
+  const Eigen::VectorXd& d = state_->diagonal();
+  x_ = start_;
+  for (Eigen::Index i = 0; i < x_.size(); ++i) {
+    const double lo = problem.lo[i], hi = problem.hi[i];
+    const double least = std::min(inside_ / std::sqrt(d[i]), kShareOfBox * (hi - lo));
+    if (moves_[i]) x_[i] = std::min(std::max(x_[i], lo + least), hi - least);
+  }
+
+  bounds_.clear();
+  const Eigen::VectorXd w = state_->Slack(x_);
   for (int i = 0; i < static_cast<int>(x_.size()); ++i) {
-    const double lo = problem.lo[i], hi = problem.hi[i], least = inside * std::sqrt(d[i]);
+    const double lo = problem.lo[i], hi = problem.hi[i], least = inside_ * std::sqrt(d[i]);
     if (!moves_[i]) continue;
     if (std::isfinite(lo)) bounds_.push_back({i, 1, x_[i] - lo, std::max(w[i], least)});
     if (std::isfinite(hi)) bounds_.push_back({i, -1, hi - x_[i], std::max(-w[i], least)});
   }
+  best_.fill(kInfinity);
+  idle_ = 0;
   Measure();
 }
 
@@ -129,7 +146,14 @@ bool Barrier::Advances(double residual) {
     best_[k] = now[k];
     idle_ = 0;
   }
-  return idle_ < kPatience;
+  if (idle_ < kPatience) return true;
+
+  // steps too short to get anywhere: the solution is far larger than the start, so start larger
+  if (infeasibility_ <= kFeasible || restarts_ == kMostRestarts) return false;
+  ++restarts_;
+  inside_ *= kLarger;
+  Begin();
+  return true;
 }
 
 double Barrier::Complementarity(double length) const {

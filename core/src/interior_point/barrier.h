@@ -33,7 +33,8 @@ class Barrier {
   /// Inside the box, strictly but for rounding and for rows whose box has no inside.
   const Eigen::VectorXd& x() const { return x_; }
   /// Whether one of the last iterations made @p residual, the infeasibility or the sum of slack z
-  /// clearly smaller than ever before. When none did, rounding is all that is left.
+  /// clearly smaller than ever before. When none did, rounding is all that is left, or the start
+  /// was far too near to the bounds: then it begins again.
   bool Advances(double residual);
   /// Length of the last step, in [0, 1].
   double step_length() const { return length_; }
@@ -53,6 +54,8 @@ class Barrier {
     double indicator = 0;               ///< Relative step of the slack less that of z, predictor.
   };
 
+  /// Slacks and multipliers at least `inside_` in the scale of their rows.
+  void Begin();
   bool Factorise();
   /// Solves for the step with which slack z changes by the targets, one for each bound.
   void SolveStep(const Eigen::VectorXd& targets);
@@ -65,9 +68,10 @@ class Barrier {
   LcpState* state_;
   SparseCholesky* factor_;
   std::vector<Bound> bounds_;
-  Eigen::VectorXd x_, residual_, step_, weight_;
+  Eigen::VectorXd start_, x_, residual_, step_, weight_;
   std::vector<char> moves_;  ///< False for rows whose box has no inside: they are no unknowns.
-  double shift_, length_ = 0;
+  double shift_, length_ = 0, inside_ = 0;
+  int restarts_ = 0;
   double infeasibility_ = 0;  ///< |M x + q - z_lo + z_hi| relative to the scale of the problem.
   /// Smallest residual, infeasibility and root of the sum of slack z so far.
   std::array<double, 3> best_ = {kInfinity, kInfinity, kInfinity};
