@@ -47,9 +47,9 @@ class LcpState {
   Eigen::VectorXd Multiply(const Eigen::VectorXd& y) const;
 
   /// Measures x, keeps it if it is the best so far, and ends the iteration if it is good enough.
-  /// The first one judged has to be finite. Returns its relative residual.
+  /// Returns its relative residual.
   double Judge();
-  /// x becomes the best iterate. @pre Judge() was called
+  /// x becomes the best iterate.
   void Restore() { x = best_x_; }
 
   /// Sweeps that cost as much as a factorisation of so many multiply-adds.
@@ -75,7 +75,6 @@ class LcpState {
   /// What has to be done next does not fit the budget.
   void EndForBudget() { End(meter_->stop_reason()); }
   bool done() const { return report_.stop != StopReason::kNotStarted; }
-  bool converged() const { return report_.stop == StopReason::kConverged; }
 
   int sweeps() const { return report_.sweeps; }
   int factorisations() const { return report_.factorisations; }
