@@ -18,7 +18,8 @@ class Budget {
 
   /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read every 256 rows; a
   /// subspace step starts only if its predicted cost and the sweeps after it fit. Results depend on
-  /// the machine: Report::work says how much was done.
+  /// the machine: Report::work says how much was done. For a problem in matrix form the clock is
+  /// read between sweeps and between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());
   }

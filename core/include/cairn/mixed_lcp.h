@@ -19,7 +19,7 @@ struct MixedLcp {
 };
 
 /// The same problem with x = (u, v) and bounds -inf <= u, 0 <= v.
-/// @pre Validate(problem) is ok: Solver::Solve() and ToBoxed() do not agree on other sizes.
+/// @pre Validate(problem) is ok.
 [[nodiscard]] BoxedLcp ToBoxed(const MixedLcp& problem);
 
 /// Sizes only (Status::kWrongSize): the rest is judged in the boxed form, whose row n_a + i is row

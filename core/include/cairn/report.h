@@ -25,7 +25,8 @@ enum class Status {
   kBadFriction,    ///< Negative friction coefficient.
   kBadDiagonal,    ///< A diagonal entry of the matrix is missing, zero or negative.
   kNotSymmetric,   ///< M_ij and M_ji differ by more than rounding.
-  /// A reduced matrix could not be factorised, even with the proximal term raised to the diagonal.
+  /// A matrix could not be factorised, even with a proximal term of 1e-7 of its diagonal, or sweeps
+  /// grew without end.
   /// The best iterate is returned: it is inside its bounds and usable.
   kNotPositiveDefinite,
 };

@@ -26,8 +26,8 @@ enum class SweepOrder {
   kForward,    ///< Row 0 first.
   kReverse,    ///< Row 0 last.
   kSymmetric,  ///< Forward and reverse in turn.
-  /// Colour by colour: rows of a colour share no entry of M, and are relaxed side by side in SIMD
-  /// lanes and threads. Same bits on every target and for any number of threads.
+  /// Colour by colour: rows of a colour share no entry of M, and threads relax them side by side.
+  /// Same bits for any number of threads.
   kColoured,
 };
 
@@ -52,7 +52,8 @@ struct Settings {
   /// step leaves behind; two are not.
   int k_gs = 5;
   /// Factorisations in one subspace step at most, >= 0: one, and one more for each pass that
-  /// removes rows which left their bounds. 0 makes every method plain sweeps.
+  /// removes rows which left their bounds. 0 makes every method but kInteriorPoint plain sweeps. In
+  /// matrix form kPgsSm goes on beyond it while the predicted set settles.
   int k_sm = 2;
   /// Sweeps in one Solve() at most, >= 0.
   int max_sweeps = 1000;

@@ -47,10 +47,10 @@ class Solver {
   [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
                              std::span<Velocity> velocities);
 
-  /// Solves a problem in matrix form. Our differences from the paper: a step is cut short where the
-  /// objective stops falling along its projection, a singular reduced matrix gets a proximal term,
-  /// and the best iterate is returned. Settings::method has them all, and the paper's own
-  /// algorithm.
+  /// Solves a problem in matrix form. Our differences from the paper in Method::kPgsSm: rows join
+  /// the set by the sign of w, too, a singular reduced matrix gets a proximal term, interior point
+  /// iterations predict a set that does not settle, and the best iterate is returned;
+  /// Method::kPgsSmLiteral is the paper's own algorithm. See docs/matrix.md.
   /// @param[in,out] x  n values: the start (brought inside the box first) and the result.
   /// Bad input: Report::status says what, Report::bad_row where, x is not touched.
   [[nodiscard]] Report Solve(const BoxedLcp& problem, Eigen::VectorXd* x);

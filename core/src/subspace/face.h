@@ -13,8 +13,8 @@ namespace cairn {
 /// solve their equations.
 class FaceSolver {
  public:
-  /// Smallest proximal term, relative to the diagonal: below the rounding of a matrix of a few
-  /// thousand rows, and enough to factorise most of those that are singular.
+  /// Smallest proximal term, relative to the diagonal. Refinement takes it out again where the
+  /// matrix is not singular.
   static constexpr double kLeastShift = 1e-11;
   /// No semidefinite matrix needs more: rounding does not reach so far.
   static constexpr double kMostShift = 1e-7;
