@@ -19,9 +19,8 @@ struct Entry {
 
 // In the order of Target. Highway counts AVX-512 as AVX3, and knows a scalar bit that we do not ask
 // for, because scalar code needs no support.
-constexpr std::array<Entry, 5> kEntries = {{
+constexpr std::array<Entry, 4> kEntries = {{
     {Target::kScalar, "scalar", 0},
-    {Target::kSsse3, "ssse3", HWY_SSSE3},
     {Target::kSse4, "sse4", HWY_SSE4},
     {Target::kAvx2, "avx2", HWY_AVX2},
     {Target::kAvx512, "avx512", HWY_AVX3},

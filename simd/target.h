@@ -9,9 +9,9 @@
 namespace cairn::simd {
 
 /// An instruction set that kernels are compiled for, worst to best.
-enum class Target { kScalar, kSsse3, kSse4, kAvx2, kAvx512 };
+enum class Target { kScalar, kSse4, kAvx2, kAvx512 };
 
-/// "scalar", "ssse3", "sse4", "avx2" or "avx512".
+/// "scalar", "sse4", "avx2" or "avx512".
 std::string_view TargetName(Target target);
 
 /// The target of that name, if there is one.

@@ -2,6 +2,8 @@
 #include "budget.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace cairn {
 namespace {
@@ -10,15 +12,37 @@ namespace {
 constexpr double kStepMargin = 1.5;
 /// Weight of the newest measurement in a price.
 constexpr double kPriceMemory = 0.05;
+/// The same for what comes after the iteration where it took longer than thought: what is not set
+/// aside for it is overrun.
+constexpr double kFinishMemory = 0.5;
 /// A measurement above so many times the price was interrupted by something else.
 constexpr double kMostSurprise = 4;
 
+double Nanoseconds(std::chrono::steady_clock::duration time) {
+  return std::chrono::duration<double, std::nano>(time).count();
+}
+
+void Learn(double measured, double memory, double* price) {
+  *price += memory * (std::min(measured, kMostSurprise * *price) - *price);
+}
+
 }  // namespace
 
-BudgetMeter::BudgetMeter(Budget budget, double units_after, WorkPrices* prices)
-    : budget_(budget), units_after_(units_after), prices_(prices) {
+BudgetMeter::BudgetMeter(Budget budget, double rows, WorkPrices* prices)
+    : budget_(budget), rows_(rows), prices_(prices) {
   if (budget_.kind() == Budget::Kind::kTime) start_ = last_ = Clock::now();
   Charge(WorkKind::kSweep, 0);
+}
+
+BudgetMeter::BudgetMeter(const Replay& replay, WorkPrices* prices)
+    : budget_(Budget::Work(replay.work)), rows_(0), prices_(prices), replayed_(&replay) {
+  Charge(WorkKind::kSweep, 0);
+}
+
+void BudgetMeter::Record(Replay* replay) {
+  replay->fits.clear();
+  replay->work = spent_ ? 0 : Replay{}.work;
+  if (budget_.kind() == Budget::Kind::kTime) record_ = replay;
 }
 
 void BudgetMeter::Begin() {
@@ -26,7 +50,8 @@ void BudgetMeter::Begin() {
 }
 
 void BudgetMeter::Charge(WorkKind kind, double units) {
-  work_ += units;
+  // whole units: a replay ends where the time was up because work grew there
+  work_ += std::ceil(units);
   switch (budget_.kind()) {
     case Budget::Kind::kUnlimited:
       return;
@@ -38,20 +63,31 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
   }
   const Clock::time_point now = Clock::now();
   if (units > 0) {
-    const double ns = std::chrono::duration<double, std::nano>(now - last_).count() / units;
-    double& price = kind == WorkKind::kSweep ? prices_->sweep_ns : prices_->step_ns;
-    price += kPriceMemory * (std::min(ns, kMostSurprise * price) - price);
+    double* const price = kind == WorkKind::kSweep ? &prices_->sweep_ns : &prices_->step_ns;
+    Learn(Nanoseconds(now - last_) / units, kPriceMemory, price);
   }
   last_ = now;
-  spent_ = TimeLeft(now) <= 0;
+  if (spent_ || TimeLeft(now) > 0) return;
+  spent_ = true;
+  if (record_ != nullptr) record_->work = work();
+}
+
+void BudgetMeter::ChargeFinish() {
+  if (budget_.kind() != Budget::Kind::kTime || rows_ <= 0) return;
+  const double ns = Nanoseconds(Clock::now() - last_) / rows_;
+  Learn(ns, ns > prices_->finish_ns ? kFinishMemory : kPriceMemory, &prices_->finish_ns);
 }
 
 double BudgetMeter::TimeLeft(Clock::time_point now) const {
-  const std::chrono::duration<double, std::nano> left = budget_.time() - (now - start_);
-  return left.count() - units_after_ * prices_->sweep_ns;
+  return Nanoseconds(budget_.time() - (now - start_)) - rows_ * prices_->finish_ns;
 }
 
-bool BudgetMeter::Fits(double step_units, double sweep_units) const {
+double BudgetMeter::work_left() const {
+  if (budget_.kind() != Budget::Kind::kWork) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(budget_.work()) - work_;
+}
+
+bool BudgetMeter::Predict(double step_units, double sweep_units) const {
   switch (budget_.kind()) {
     case Budget::Kind::kUnlimited:
       return true;
@@ -65,8 +101,18 @@ bool BudgetMeter::Fits(double step_units, double sweep_units) const {
   return needed <= TimeLeft(Clock::now());
 }
 
+bool BudgetMeter::Fits(double step_units, double sweep_units) {
+  if (replayed_ != nullptr) {
+    return answers_ < replayed_->fits.size() && replayed_->fits[answers_++] != 0;
+  }
+  const bool fits = Predict(step_units, sweep_units);
+  if (record_ != nullptr) record_->fits.push_back(fits ? 1 : 0);
+  return fits;
+}
+
 StopReason BudgetMeter::stop_reason() const {
-  return budget_.kind() == Budget::Kind::kTime ? StopReason::kTimeSpent : StopReason::kWorkSpent;
+  const bool timed = budget_.kind() == Budget::Kind::kTime || replayed_ != nullptr;
+  return timed ? StopReason::kTimeSpent : StopReason::kWorkSpent;
 }
 
 std::chrono::nanoseconds BudgetMeter::elapsed() const {

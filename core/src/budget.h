@@ -12,28 +12,38 @@ namespace cairn {
 /// What kind of work is charged: each has its own price in nanoseconds.
 enum class WorkKind { kSweep, kStep };
 
-/// Nanoseconds a work unit takes on this machine, learnt from timed frames; see BudgetMeter.
+/// Nanoseconds that work takes on this machine, learnt from timed frames; see BudgetMeter.
 struct WorkPrices {
-  double sweep_ns = 20;
-  double step_ns = 20;
+  double sweep_ns = 2;    ///< a work unit of sweeps
+  double step_ns = 2;     ///< a work unit of steps
+  double finish_ns = 10;  ///< a row, from the last sweep to the end of the Solve()
 };
 
 /// Counts work, and says when the budget is spent. Reads the clock for Budget::Time only.
 class BudgetMeter {
  public:
-  /// Of a time, what @p units_after of sweep work after the iteration will take is set aside.
-  BudgetMeter(Budget budget, double units_after, WorkPrices* prices);
+  /// Of a time, what the results of @p rows rows will take is set aside.
+  BudgetMeter(Budget budget, double rows, WorkPrices* prices);
+  /// Makes a frame again. @p replay must outlive the meter.
+  BudgetMeter(const Replay& replay, WorkPrices* prices);
+  /// Keeps what the clock decides in @p replay, if the budget is a time.
+  void Record(Replay* replay);
 
   /// Work of one kind begins: time since the last Charge() went elsewhere, and says nothing of its
   /// price.
   void Begin();
   /// Adds work that was done since Begin() or the last Charge(). @p units >= 0.
   void Charge(WorkKind kind, double units);
+  /// The results are written: learns what that took since Begin().
+  void ChargeFinish();
 
   /// No more work may be started.
   bool spent() const { return spent_; }
+  /// Work units left, infinite unless the budget is of work.
+  double work_left() const;
   /// Whether a step of @p step_units and sweeps of @p sweep_units after it are predicted to fit.
-  bool Fits(double step_units, double sweep_units) const;
+  /// The answer goes to Replay::fits, or comes from there.
+  bool Fits(double step_units, double sweep_units);
 
   StopReason stop_reason() const;
   std::int64_t work() const { return static_cast<std::int64_t>(work_); }
@@ -45,10 +55,14 @@ class BudgetMeter {
 
   /// Nanoseconds of the budget that are left for the iteration. @pre the budget is a time
   double TimeLeft(Clock::time_point now) const;
+  bool Predict(double step_units, double sweep_units) const;
 
   Budget budget_;
-  double units_after_;
+  double rows_;
   WorkPrices* prices_;
+  const Replay* replayed_ = nullptr;
+  size_t answers_ = 0;  ///< of replayed_ given so far
+  Replay* record_ = nullptr;
   Clock::time_point start_, last_;
   double work_ = 0;
   bool spent_ = false;

@@ -46,7 +46,7 @@ void IslandCycle::Advance(BudgetMeter* meter) {
     residual_ = MeasureNow(meter);
     if (Largest(residual_) <= settings_.tolerance) return Stop(StopReason::kConverged);
   }
-  step_next_ = may_step && StepPays(*meter);
+  step_next_ = may_step && StepPays(meter);
 }
 
 bool IslandCycle::Spent(const BudgetMeter& meter) const {
@@ -99,10 +99,12 @@ bool IslandCycle::StepsLeft() const {
          sweeps_left >= std::min(settings_.k_gs, kLeastSweepsAfterStep);
 }
 
-bool IslandCycle::StepPays(const BudgetMeter& meter) {
+bool IslandCycle::StepPays(BudgetMeter* meter) {
   // after the step, its sweeps, and as many without it, which it has to beat
   const double sweeps = 2 * (SweepsOfLeg() + kMeasureSweeps);
-  return memory_->StepPays(island_, settings_, meter, sweeps * units_per_sweep());
+  const StepBudget budget{meter, 1, sweeps * units_per_sweep()};
+  return memory_->Due(units_per_sweep(), settings_, budget) &&
+         memory_->StepPays(island_, settings_, budget);
 }
 
 void IslandCycle::StepLeg(BudgetMeter* meter) {

@@ -39,7 +39,7 @@ class IslandCycle {
   /// A step is wanted at all, and may be followed by enough sweeps.
   bool StepsLeft() const;
   /// It is worth its price here, and inside the budget.
-  bool StepPays(const BudgetMeter& meter);
+  bool StepPays(BudgetMeter* meter);
   void StepLeg(BudgetMeter* meter);
   /// After a step: keeps it, or the same number of sweeps from @p before alone.
   bool KeepBetter(Point before, BudgetMeter* meter);

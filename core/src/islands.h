@@ -16,6 +16,25 @@ struct Island {
 
 bool CanMove(const Body& body);
 
+/// Which bodies belong together: union-find, in which the root of a set is its smallest member.
+class IslandFinder {
+ public:
+  /// Nothing belongs together yet, and no body to an island.
+  void Start(int bodies);
+  /// A row between two movable bodies; kWorld for one that cannot move.
+  void Join(int a, int b);
+  /// Numbers the islands by their first body. Returns how many there are.
+  int Number();
+  /// -1 for a body without rows. @pre Number()
+  const std::vector<int>& island_of_body() const { return island_; }
+
+ private:
+  int Root(int body);
+
+  std::vector<int> parent_;
+  std::vector<int> island_;  ///< before Number(): 0 where a body has rows, else -1
+};
+
 /// Ordered by their first body. Rows without a movable body form a last island without bodies.
 std::vector<Island> FindIslands(const ContactProblem& problem);
 

@@ -39,7 +39,7 @@ Report LcpSolver::Solve(const BoxedLcp& problem, const Settings& settings, const
     return Solve(compressed, settings, observer, x);
   }
 
-  if (crew_.threads() != settings.threads) crew_ = Crew(settings.threads);
+  crew_.Follow(settings);
   LcpState state(problem, settings, &meter, &crew_, observer);
   state.Begin(*x);
   if (state.done()) return state.Finish(x);

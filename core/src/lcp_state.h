@@ -7,7 +7,7 @@
 #include "cairn/boxed_lcp.h"
 #include "cairn/settings.h"
 #include "cairn/solver.h"
-#include "executor_tbb.h"
+#include "crew.h"
 #include "pgs/matrix_sweep.h"
 #include "phase_clock.h"
 #include "subspace/sparse_cholesky.h"

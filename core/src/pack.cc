@@ -1,50 +1,43 @@
 // SPDX-License-Identifier: MIT
 #include "pack.h"
 
-#include <cmath>
-
-#include "validate.h"
-
 namespace cairn {
 
-Packer::Packer(const ContactProblem& problem, const Settings& settings)
+Packer::Packer(const ContactProblem& problem, const Settings& settings,
+               std::span<const WhitenedBody> bodies)
     : problem_(problem),
-      omega_(settings.method == Method::kPsor ? settings.omega : 1.0),
-      roots_(problem.bodies.size()),
-      free_(problem.bodies.size()),
+      omega_(OmegaOf(settings)),
+      bodies_(bodies),
       local_(problem.bodies.size(), 0),
-      local_row_(problem.rows.size(), kNoRow) {
-  for (size_t i = 0; i < problem.bodies.size(); ++i) {
-    const Body& body = problem.bodies[i];
-    const Eigen::Vector3d inv_mass = body.inv_mass * body.linear_factor;
-    roots_[i].linear = inv_mass.cwiseSqrt();
-    FactorInertia(body.inv_inertia, &roots_[i].angular);
-    free_[i].linear = body.velocity.linear + inv_mass.cwiseProduct(body.impulse);
-    free_[i].angular = body.velocity.angular + body.inv_inertia * body.angular_impulse;
-  }
+      local_row_(problem.rows.size(), kNoRow) {}
+
+Packer::Packer(const ContactProblem& problem, const Settings& settings)
+    : Packer(problem, settings, {}) {
+  own_bodies_.resize(problem.bodies.size());
+  for (size_t i = 0; i < own_bodies_.size(); ++i) Whiten(problem.bodies[i], &own_bodies_[i]);
+  bodies_ = own_bodies_;
 }
 
-Vector6 Packer::Whiten(int body, const Eigen::Vector3d& linear,
-                       const Eigen::Vector3d& angular) const {
+Vector6 Packer::WhitenRow(int body, const Eigen::Vector3d& linear,
+                          const Eigen::Vector3d& angular) const {
   Vector6 g{};
   if (body == kWorld) return g;
-  const Root& root = roots_[body];
-  Eigen::Map<Eigen::Vector3d>(g.data()) = root.linear.cwiseProduct(linear);
-  Eigen::Map<Eigen::Vector3d>(g.data() + 3) = root.angular.transpose() * angular;
+  Eigen::Map<Eigen::Vector3d>(g.data()) = bodies_[body].linear.cwiseProduct(linear);
+  Eigen::Map<Eigen::Vector3d>(g.data() + 3) = bodies_[body].angular.transpose() * angular;
   return g;
 }
 
 PackedRow Packer::PackRow(const Row& row) const {
   PackedRow packed;
-  packed.g_a = Whiten(row.body_a, row.linear_a, row.angular_a);
-  packed.g_b = Whiten(row.body_b, row.linear_b, row.angular_b);
+  packed.g_a = WhitenRow(row.body_a, row.linear_a, row.angular_a);
+  packed.g_b = WhitenRow(row.body_b, row.linear_b, row.angular_b);
   packed.a = row.body_a == kWorld ? 0 : local_[row.body_a];
   packed.b = row.body_b == kWorld ? 0 : local_[row.body_b];
 
   packed.target = row.target;
   const auto subtract = [&](int body, const Eigen::Vector3d& j_v, const Eigen::Vector3d& j_w) {
     if (body == kWorld) return;
-    packed.target -= j_v.dot(free_[body].linear) + j_w.dot(free_[body].angular);
+    packed.target -= j_v.dot(bodies_[body].free.linear) + j_w.dot(bodies_[body].free.angular);
   };
   subtract(row.body_a, row.linear_a, row.angular_a);
   subtract(row.body_b, row.linear_b, row.angular_b);
@@ -85,18 +78,16 @@ IslandState Packer::Start(const PackedIsland& packed, const Island& island,
 }
 
 void Packer::WriteFreeVelocities(std::span<Velocity> velocities) const {
-  for (size_t i = 0; i < free_.size(); ++i) velocities[i] = free_[i];
+  for (size_t i = 0; i < bodies_.size(); ++i) velocities[i] = bodies_[i].free;
 }
 
-void Packer::AddVelocities(const Island& island, const IslandState& state,
-                           std::span<Velocity> velocities) const {
+void Packer::WriteVelocities(const Island& island, const IslandState& state,
+                             std::span<Velocity> velocities) const {
   for (size_t i = 0; i < island.bodies.size(); ++i) {
-    const int body = island.bodies[i];
-    const Root& root = roots_[body];
-    const Vector6& u = state.u[i + 1];
-    velocities[body].linear +=
-        root.linear.cwiseProduct(Eigen::Map<const Eigen::Vector3d>(u.data()));
-    velocities[body].angular += root.angular * Eigen::Map<const Eigen::Vector3d>(u.data() + 3);
+    const double* const u = state.u[i + 1].data();
+    velocities[island.bodies[i]] =
+        Unwhiten(bodies_[island.bodies[i]], Eigen::Map<const Eigen::Vector3d>(u),
+                 Eigen::Map<const Eigen::Vector3d>(u + 3));
   }
 }
 

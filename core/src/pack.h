@@ -8,15 +8,9 @@
 #include "cairn/contact_problem.h"
 #include "cairn/settings.h"
 #include "islands.h"
+#include "whitening.h"
 
 namespace cairn {
-
-// Whitened velocities. With M^-1 = R R' per body, impulses x change velocities by R u, where
-//
-//   u = G' x,   G = J R,   and so   J M^-1 J' = G G',   kinetic energy of the change = |u|^2 / 2.
-//
-// One vector G per row serves as J and as M^-1 J', masses disappear from the formulas, and an axis
-// that cannot move is a zero in G rather than a mass of infinity.
 
 using Vector6 = std::array<double, 6>;
 
@@ -83,11 +77,21 @@ inline double Slack(const PackedRow& row, const std::vector<Vector6>& u, double 
   return RelativeVelocity(row, u) + row.compliance * x - row.target;
 }
 
+/// Step length of every row: over-relaxation of Method::kPsor.
+inline double OmegaOf(const Settings& settings) {
+  return settings.method == Method::kPsor ? settings.omega : 1.0;
+}
+
 /// Between the caller's bodies and rows and whitened islands. One copy in, one copy out.
 class Packer {
  public:
-  /// @pre the problem passed Validate().
+  /// @pre the problem passed Validate(). @p bodies: whitened; they must outlive the packer.
+  Packer(const ContactProblem& problem, const Settings& settings,
+         std::span<const WhitenedBody> bodies);
+  /// Whitens the bodies itself.
   Packer(const ContactProblem& problem, const Settings& settings);
+  Packer(const Packer&) = delete;
+  Packer& operator=(const Packer&) = delete;
 
   PackedIsland Pack(const Island& island) const;
 
@@ -97,24 +101,18 @@ class Packer {
 
   /// Velocity of every body without constraints.
   void WriteFreeVelocities(std::span<Velocity> velocities) const;
-  /// Adds what the state of one island changes.
-  void AddVelocities(const Island& island, const IslandState& state,
-                     std::span<Velocity> velocities) const;
+  /// Velocities of the bodies of one island.
+  void WriteVelocities(const Island& island, const IslandState& state,
+                       std::span<Velocity> velocities) const;
 
  private:
   PackedRow PackRow(const Row& row) const;
-  Vector6 Whiten(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) const;
-
-  /// R of a body: a diagonal for the linear part, a matrix for the angular part.
-  struct Root {
-    Eigen::Vector3d linear = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d angular = Eigen::Matrix3d::Zero();
-  };
+  Vector6 WhitenRow(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) const;
 
   ContactProblem problem_;
   double omega_;
-  std::vector<Root> roots_;
-  std::vector<Velocity> free_;      ///< v_start + M^-1 external impulses
+  std::vector<WhitenedBody> own_bodies_;
+  std::span<const WhitenedBody> bodies_;
   mutable std::vector<int> local_;  ///< scratch: problem row or body -> island row or body
   mutable std::vector<int> local_row_;
 };

@@ -2,73 +2,102 @@
 #include "cairn/solver.h"
 
 #include <algorithm>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "block_solver.h"
 #include "budget.h"
 #include "cycle.h"
 #include "islands.h"
 #include "lcp_solver.h"
 #include "pack.h"
 #include "residual.h"
-#include "subspace/policy.h"
 #include "validate.h"
 
 namespace cairn {
 namespace {
 
-/// Frames an island may be absent before what was learnt about it is dropped.
-constexpr int kForgetAfter = 120;
-/// Keys of islands without names begin here.
-constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
-
-/// Writing the results back and measuring them costs about as much as this many sweeps.
-constexpr double kFinishSweeps = 1.5;
+/// kAutomatic: below this, floats cannot tell whether a row is close enough to its law [m/s].
+constexpr double kFinestFloatTolerance = 1e-5;
 
 /// Which of two reasons says more about why the whole did not get further.
 StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
 
+bool InBlocks(const Settings& settings) {
+  if (settings.order == SweepOrder::kAutomatic) {
+    return settings.tolerance == 0 || settings.tolerance >= kFinestFloatTolerance;
+  }
+  return settings.order == SweepOrder::kColoured;
+}
+
+BudgetMeter MeterOf(const Settings& settings, size_t rows, WorkPrices* prices) {
+  if (settings.replay != nullptr) return BudgetMeter(*settings.replay, prices);
+  return BudgetMeter(settings.budget, static_cast<double>(rows), prices);
+}
+
+/// Adds up what was done on the islands.
+void SumUp(Report* report) {
+  report->stop = report->islands.empty() ? StopReason::kConverged : StopReason::kNotStarted;
+  for (const IslandReport& island : report->islands) {
+    Accumulate(island.residual, report);
+    report->sweeps = std::max(report->sweeps, island.sweeps);
+    report->factorisations += island.factorisations;
+    report->steps_accepted += island.steps_accepted;
+    report->steps_restored += island.steps_restored;
+    report->stop = WorseOf(report->stop, island.stop);
+  }
+}
+
 }  // namespace
 
 struct Solver::Impl {
-  struct Remembered {
-    IslandMemory memory;
-    int last_frame = 0;
-  };
-
-  IslandMemory* Recall(const ContactProblem& problem, const Island& island);
-  void Forget();
+  /// Row by row in double precision, in the order of the problem: the reference.
+  void SolveRows(const ContactProblem& problem, BudgetMeter* meter, std::span<double> impulses,
+                 std::span<Velocity> velocities, Report* report);
 
   Settings settings;
-  std::unordered_map<std::uint64_t, Remembered> memories;
-  WorkPrices prices;
-  int frame = 1;
+  WorkPrices block_prices, row_prices{.sweep_ns = 20, .step_ns = 20, .finish_ns = 30};
+  BlockSolver blocks;
   LcpSolver lcp;
   Observer observer;
 };
 
-IslandMemory* Solver::Impl::Recall(const ContactProblem& problem, const Island& island) {
-  // without names from the caller, the position of the first body has to do
-  std::uint64_t key = ~std::uint64_t{0};
-  for (int body : island.bodies) {
-    const std::uint64_t id = problem.bodies[body].id;
-    key = std::min(key, id != 0 ? id : kUnnamed + static_cast<std::uint64_t>(body));
+void Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter,
+                             std::span<double> impulses, std::span<Velocity> velocities,
+                             Report* report) {
+  // problem in
+  const Packer packer(problem, settings);
+  const std::vector<Island> islands = FindIslands(problem);
+  std::vector<PackedIsland> packed;
+  packed.reserve(islands.size());
+  std::vector<IslandCycle> cycles;
+  cycles.reserve(islands.size());
+  for (const Island& island : islands) {
+    packed.push_back(packer.Pack(island));
+    cycles.emplace_back(packed.back(), Packer::Start(packed.back(), island, impulses), settings,
+                        blocks.memories().Recall(problem, island.bodies));
   }
-  // two islands of one name must not share a system: the second goes by another name
-  const int place = island.bodies.empty() ? 0 : island.bodies.front() + 1;
-  while (memories[key].last_frame == frame) {
-    key = key * 6364136223846793005u + static_cast<std::uint64_t>(place);
-  }
-  Remembered& remembered = memories[key];
-  remembered.last_frame = frame;
-  return &remembered.memory;
-}
 
-void Solver::Impl::Forget() {
-  std::erase_if(memories, [this](const auto& entry) {
-    return entry.second.last_frame < frame - kForgetAfter;
-  });
+  // a leg for every island in turn, until all are done
+  for (bool busy = true; busy;) {
+    busy = false;
+    for (IslandCycle& cycle : cycles) {
+      if (cycle.done()) continue;
+      cycle.Advance(meter);
+      busy = true;
+    }
+  }
+
+  // results back
+  meter->Begin();
+  packer.WriteFreeVelocities(velocities);
+  for (size_t i = 0; i < islands.size(); ++i) {
+    const IslandState& state = cycles[i].state();
+    for (size_t k = 0; k < state.x.size(); ++k) impulses[islands[i].rows[k]] = state.x[k];
+    packer.WriteVelocities(islands[i], state, velocities);
+    report->islands.push_back(cycles[i].Finish());
+    report->islands.back().first_body = islands[i].bodies.empty() ? -1 : islands[i].bodies.front();
+  }
 }
 
 Solver::Solver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
@@ -113,65 +142,56 @@ Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorX
 
 Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
                      std::span<Velocity> velocities) {
-  const Settings settings = impl_->settings;
   Report report;
-  report.status = Validate(settings);
-  if (settings.method == Method::kPgsSmLiteral || settings.method == Method::kInteriorPoint) {
-    report.status = Status::kBadSettings;
-  }
-  if (!report.ok()) return report;
-  const double units_after = kFinishSweeps * static_cast<double>(problem.rows.size());
-  BudgetMeter meter(settings.budget, units_after, &impl_->prices);
-  report = Validate(problem, impulses);
-  if (report.ok() && velocities.size() != problem.bodies.size()) report.status = Status::kWrongSize;
-  if (!report.ok()) return report;
-
-  // problem in
-  const Packer packer(problem, settings);
-  const std::vector<Island> islands = FindIslands(problem);
-  std::vector<PackedIsland> packed;
-  packed.reserve(islands.size());
-  std::vector<IslandCycle> cycles;
-  cycles.reserve(islands.size());
-  for (const Island& island : islands) {
-    packed.push_back(packer.Pack(island));
-    cycles.emplace_back(packed.back(), Packer::Start(packed.back(), island, impulses), settings,
-                        impl_->Recall(problem, island));
-  }
-
-  // a leg for every island in turn, until all are done
-  for (bool busy = true; busy;) {
-    busy = false;
-    for (IslandCycle& cycle : cycles) {
-      if (cycle.done()) continue;
-      cycle.Advance(&meter);
-      busy = true;
-    }
-  }
-
-  // results back
-  packer.WriteFreeVelocities(velocities);
-  report.stop = islands.empty() ? StopReason::kConverged : StopReason::kNotStarted;
-  for (size_t i = 0; i < islands.size(); ++i) {
-    const IslandState& state = cycles[i].state();
-    for (size_t k = 0; k < state.x.size(); ++k) impulses[islands[i].rows[k]] = state.x[k];
-    packer.AddVelocities(islands[i], state, velocities);
-
-    IslandReport part = cycles[i].Finish();
-    part.first_body = islands[i].bodies.empty() ? -1 : islands[i].bodies.front();
-    Accumulate(part.residual, &report);
-    report.sweeps = std::max(report.sweeps, part.sweeps);
-    report.factorisations += part.factorisations;
-    report.steps_accepted += part.steps_accepted;
-    report.steps_restored += part.steps_restored;
-    report.stop = WorseOf(report.stop, part.stop);
-    report.islands.push_back(part);
-  }
-  report.work = meter.work();
-  report.elapsed = meter.elapsed();
-  ++impl_->frame;
-  impl_->Forget();
+  Solve(problem, impulses, velocities, &report);
   return report;
+}
+
+void Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
+                   std::span<Velocity> velocities, Report* report) {
+  // all but the memory of an earlier report
+  std::vector<IslandReport> islands = std::move(report->islands);
+  Replay replay = std::move(report->replay);
+  islands.clear();
+  *report = Report{};
+  report->islands = std::move(islands);
+  report->replay = std::move(replay);
+
+  const Settings& settings = impl_->settings;
+  report->status = Validate(settings);
+  if (settings.method == Method::kPgsSmLiteral || settings.method == Method::kInteriorPoint) {
+    report->status = Status::kBadSettings;
+  }
+  if (!report->ok()) return;
+  if (problem.bodies.empty() || impulses.size() != problem.rows.size()) {
+    report->status = Validate(problem, impulses).status;
+    return;
+  }
+  if (velocities.size() != problem.bodies.size()) report->status = Status::kWrongSize;
+  if (!report->ok()) return;
+
+  bool in_blocks = InBlocks(settings);
+  WorkPrices* const prices = in_blocks ? &impl_->block_prices : &impl_->row_prices;
+  BudgetMeter meter = MeterOf(settings, problem.rows.size(), prices);
+  meter.Record(&report->replay);
+  if (in_blocks) {
+    const PackResult result =
+        impl_->blocks.Solve(problem, settings, &meter, impulses, velocities, report);
+    in_blocks = result == PackResult::kDone;
+  }
+  if (!in_blocks) {
+    const Report checked = Validate(problem, impulses);
+    report->status = checked.status;
+    report->bad_row = checked.bad_row;
+    report->bad_body = checked.bad_body;
+    if (!report->ok()) return;
+    impl_->SolveRows(problem, &meter, impulses, velocities, report);
+  }
+  meter.ChargeFinish();
+  SumUp(report);
+  report->work = meter.work();
+  report->elapsed = meter.elapsed();
+  impl_->blocks.memories().EndFrame();
 }
 
 }  // namespace cairn

@@ -61,8 +61,29 @@ bool Inside(double value, double lo, double hi) { return value >= lo && value <=
 
 }  // namespace
 
+namespace {
+
+constexpr double kFloatRounding = 1e-5;
+
+/// Plain Cholesky, where no pivot is small.
+bool FactorDefinite(const Eigen::Matrix3d& m, Eigen::Matrix3d* factor) {
+  constexpr double kLeastPivot = 1e-4;
+  if (m(1, 0) != m(0, 1) || m(2, 0) != m(0, 2) || m(2, 1) != m(1, 2)) return false;
+  if (!(m(0, 0) > 0)) return false;
+  const double l00 = std::sqrt(m(0, 0)), l10 = m(1, 0) / l00, l20 = m(2, 0) / l00;
+  const double pivot1 = m(1, 1) - l10 * l10;
+  if (!(pivot1 > kLeastPivot * m(1, 1))) return false;
+  const double l11 = std::sqrt(pivot1), l21 = (m(2, 1) - l20 * l10) / l11;
+  const double pivot2 = m(2, 2) - l20 * l20 - l21 * l21;
+  if (!(pivot2 > kLeastPivot * m(2, 2))) return false;
+  *factor << l00, 0, 0, l10, l11, 0, l20, l21, std::sqrt(pivot2);
+  return true;
+}
+
+}  // namespace
+
 bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor) {
-  constexpr double kFloatRounding = 1e-5;
+  if (FactorDefinite(inv_inertia, factor)) return true;
   const double scale = inv_inertia.cwiseAbs().maxCoeff();
   const double tolerance = kFloatRounding * scale;
   if ((inv_inertia - inv_inertia.transpose()).cwiseAbs().maxCoeff() > tolerance) return false;
@@ -111,9 +132,11 @@ Report Validate(const ContactProblem& problem, std::span<const double> impulses)
 
 Status Validate(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
-  const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, min_sweeps,
-               threads, omega, lifted_friction, step_policy, proximal, proximal_joints, refinements,
-               active_tolerance] = settings;
+  const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay,
+               min_sweeps, threads, executor, omega, lifted_friction, step_policy, proximal,
+               proximal_joints, refinements, active_tolerance] = settings;
+  static_cast<void>(executor);  // any will do
+  const bool replays = replay == nullptr || replay->work >= 0;
   const bool enums =
       Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
       Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
@@ -124,7 +147,7 @@ Status Validate(const Settings& settings) {
   const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
                      omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
                      Inside(proximal_joints, 1e-12, 1) && Inside(active_tolerance, 0, kInfinity);
-  return enums && counts && reals && budget.valid() ? Status::kOk : Status::kBadSettings;
+  return enums && counts && reals && replays && budget.valid() ? Status::kOk : Status::kBadSettings;
 }
 
 }  // namespace cairn

@@ -32,6 +32,7 @@ THIRD_PARTIES = {
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
     "Siconos": (r"siconos/", r"bench/cli/siconos_"),
+    "Google Benchmark": (r"benchmark/", r"bench/micro/"),
     "test libraries": (r"(gtest|gmock|rapidcheck)(/|\.h)", r"tests/"),
 }
 

@@ -96,30 +96,5 @@ TEST(ColouredSweeps, AreChosenForLargeStencilsOnly) {
   }
 }
 
-TEST(Crew, RunsEveryBlockOnceAndNoStageBeforeTheLast) {
-  const std::vector<int> blocks = {7, 0, 1, 40, 3};
-  for (const int threads : {1, 2, 5}) {
-    Crew crew(threads);
-    for (int repetition = 0; repetition < 200; ++repetition) {
-      std::vector<std::atomic<int>> runs(51), done(5);
-      std::atomic<bool> early = false;
-      crew.Run(blocks, [&](int stage, int block) {
-        for (int before = 0; before < stage; ++before) {
-          if (done[before] != blocks[before]) early = true;
-        }
-        ++runs[std::accumulate(blocks.begin(), blocks.begin() + stage, block)];
-        ++done[stage];
-      });
-      EXPECT_FALSE(early);
-      for (const auto& count : runs) EXPECT_EQ(count, 1);
-    }
-  }
-}
-
-TEST(Crew, RunsNothingWhereThereIsNothing) {
-  Crew crew(3);
-  crew.Run({}, [](int, int) { FAIL(); });
-}
-
 }  // namespace
 }  // namespace cairn

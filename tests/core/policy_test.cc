@@ -22,7 +22,10 @@ class Asked {
 
   bool Pays(StepPolicy policy = StepPolicy::kMeasured, double sweeps = 0) {
     settings_.step_policy = policy;
-    return memory_.StepPays(packed_.island, settings_, meter_, sweeps);
+    const StepBudget budget{&meter_, 1, sweeps};
+    const double rows = static_cast<double>(packed_.island.rows.size());
+    return memory_.Due(rows, settings_, budget) &&
+           memory_.StepPays(packed_.island, settings_, budget);
   }
   /// Opportunities passed over until the next step.
   int Pause() {

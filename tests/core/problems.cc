@@ -55,12 +55,20 @@ double Distance(const std::vector<Velocity>& a, const std::vector<Velocity>& b) 
 }
 
 Settings PlainSweeps(int sweeps) {
-  return {.method = Method::kPgs, .k_sm = 0, .max_sweeps = sweeps, .tolerance = 0, .min_sweeps = 0};
+  return {.method = Method::kPgs,
+          .order = SweepOrder::kForward,
+          .k_sm = 0,
+          .max_sweeps = sweeps,
+          .tolerance = 0,
+          .min_sweeps = 0};
 }
 
 Settings AlwaysSteps(int sweeps) {
-  return {
-      .max_sweeps = sweeps, .tolerance = 0, .min_sweeps = 0, .step_policy = StepPolicy::kAlways};
+  return {.order = SweepOrder::kForward,
+          .max_sweeps = sweeps,
+          .tolerance = 0,
+          .min_sweeps = 0,
+          .step_policy = StepPolicy::kAlways};
 }
 
 double Random::Uniform(double lo, double hi) {

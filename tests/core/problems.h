@@ -45,10 +45,10 @@ testing::AssertionResult SameBits(const Solution& a, const Solution& b);
 double Distance(const std::vector<double>& a, const std::vector<double>& b);
 double Distance(const std::vector<Velocity>& a, const std::vector<Velocity>& b);
 
-/// So many sweeps and nothing else: no steps, no look at the residual. A budget may forbid them
-/// all, here and in AlwaysSteps().
+/// So many sweeps in double precision, row by row in the order given, and nothing else: no steps, no
+/// look at the residual. A budget may forbid them all, here and in AlwaysSteps().
 Settings PlainSweeps(int sweeps);
-/// A step after every k_gs sweeps, whatever it costs, and no look at the tolerance.
+/// A step after every k_gs such sweeps, whatever it costs, and no look at the tolerance.
 Settings AlwaysSteps(int sweeps);
 
 /// The same numbers with every standard library and compiler: call it once in an expression.

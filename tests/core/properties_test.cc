@@ -31,6 +31,7 @@ Scene AnyScene() {
 Settings AnySettings() {
   Settings settings;
   settings.method = *rc::gen::element(Method::kPgs, Method::kPsor, Method::kPgsSm);
+  settings.order = *rc::gen::element(SweepOrder::kAutomatic, SweepOrder::kForward);
   settings.omega = *rc::gen::element(0.5, 1.0, 1.5);
   settings.k_gs = *rc::gen::inRange(1, 8);
   settings.k_sm = *rc::gen::inRange(0, 4);
@@ -51,20 +52,28 @@ std::vector<double> AnyStart(const Scene& scene) {
 
 RC_GTEST_PROP(EveryProblem, EndsInsideItsBounds, ()) {
   const Scene scene = AnyScene();
-  const Solution s = test::Solve(AnySettings(), scene, AnyStart(scene));
+  const Settings settings = AnySettings();
+  const Solution s = test::Solve(settings, scene, AnyStart(scene));
   RC_ASSERT(s.report.ok());
+  // a coefficient, an impulse and their product are rounded where sweeps are made in floats
+  const double rounding = settings.order == SweepOrder::kForward ? 0 : 0x1p-22;
   const Eigen::VectorXd x = test::ToVector(s.x);
-  for (int i = 0; i < x.size(); ++i) RC_ASSERT(x[i] == test::Project(scene, x, i, x[i]));
+  for (int i = 0; i < x.size(); ++i) {
+    RC_ASSERT(std::abs(x[i] - test::Project(scene, x, i, x[i])) <= rounding * std::abs(x[i]));
+  }
 }
 
-// The solver adds up changes of velocity over up to 60 sweeps of 90 rows, at speeds of up to 100.
+// The solver adds up changes of velocity over up to 60 sweeps of 90 rows, at speeds of up to 100: a
+// float is wrong by up to 6e-6 each time, in any direction.
 RC_GTEST_PROP(EveryProblem, EndsWithTheVelocitiesOfItsImpulses, ()) {
   const Scene scene = AnyScene();
   const test::Dense dense = test::MakeDense(scene);
-  const Solution s = test::Solve(AnySettings(), scene, AnyStart(scene));
+  const Settings settings = AnySettings();
+  const Solution s = test::Solve(settings, scene, AnyStart(scene));
+  const double tolerance = settings.order == SweepOrder::kForward ? 1e-10 : 1e-3;
   const Eigen::VectorXd v =
       dense.free + dense.inverse_mass * (dense.J.transpose() * test::ToVector(s.x));
-  RC_ASSERT((test::Flatten(s.v) - v).cwiseAbs().maxCoeff() < 1e-10);
+  RC_ASSERT((test::Flatten(s.v) - v).cwiseAbs().maxCoeff() < tolerance);
 }
 
 RC_GTEST_PROP(EveryProblem, GivesItsBitsAgain, ()) {

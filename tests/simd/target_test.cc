@@ -12,7 +12,7 @@ namespace {
 
 using Reason = TargetChoice::Reason;
 
-const std::vector<Target> kOldCpu = {Target::kScalar, Target::kSsse3, Target::kSse4};
+const std::vector<Target> kOldCpu = {Target::kScalar, Target::kSse4};
 
 TEST(TargetTest, ScalarIsAlwaysSupportedAndTargetsAscend) {
   const std::vector<Target> targets = SupportedTargets();
@@ -23,8 +23,7 @@ TEST(TargetTest, ScalarIsAlwaysSupportedAndTargetsAscend) {
 }
 
 TEST(TargetTest, EveryTargetIsFoundByItsName) {
-  for (Target target :
-       {Target::kScalar, Target::kSsse3, Target::kSse4, Target::kAvx2, Target::kAvx512}) {
+  for (Target target : {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx512}) {
     EXPECT_EQ(FindTarget(TargetName(target)), target);
   }
   EXPECT_EQ(FindTarget("AVX2"), std::nullopt);

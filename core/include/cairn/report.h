@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -82,6 +83,16 @@ struct Phases {
   std::chrono::nanoseconds other{0};   ///< Residuals, sets, step lengths, observers.
 };
 
+/// What the clock decided in a Solve() with Budget::Time. Given back as Settings::replay, with the
+/// same frames before it, it makes the same frame again, to the bit, on any machine.
+struct Replay {
+  /// Work units done when the time was up, the largest number if it never was.
+  std::int64_t work = std::numeric_limits<std::int64_t>::max();
+  std::vector<std::uint8_t> fits;  ///< For each step considered, whether there was time for it.
+
+  friend bool operator==(const Replay&, const Replay&) = default;
+};
+
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
   Status status = Status::kOk;
@@ -102,6 +113,7 @@ struct [[nodiscard]] Report {
   int analyses = 0;                     ///< Symbolic factorisations, likewise.
   std::int64_t factor_nonzeros = 0;     ///< Entries of the largest factor, likewise.
   std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
+  Replay replay;                        ///< Contact problems with Budget::Time.
   std::chrono::nanoseconds elapsed{0};  ///< 0 unless the budget is a time.
   Phases phases;                        ///< Problems in matrix form, 0 unless the budget is a time.
   std::vector<IslandReport> islands;

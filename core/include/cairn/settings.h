@@ -2,6 +2,8 @@
 #pragma once
 
 #include "cairn/budget.h"
+#include "cairn/executor.h"
+#include "cairn/report.h"
 
 namespace cairn {
 
@@ -66,12 +68,17 @@ struct Settings {
   /// matrix form: sqrt(sum d_i (change of x_i)^2), unit of LcpResidual::energy.
   double min_progress = 0;
   Budget budget = Budget::Unlimited();
+  /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
+  /// nullptr: none. Must outlive the Solve(). Contact problems only.
+  const Replay* replay = nullptr;
   /// Sweeps made even if the budget is spent before them, >= 0. At 0 a budget that is too small for
   /// anything returns the warm start.
   int min_sweeps = 1;
-  /// Threads that may work on one Solve(), the caller included, in [1, 1024]. This version uses
-  /// more than one for coloured sweeps of problems in matrix form only.
+  /// Threads that may work on one Solve(), the caller included, in [1, 1024]. Results are the same
+  /// for any number. Problems too small to gain stay on the caller's.
   int threads = 1;
+  /// Where the other threads come from; nullptr: oneTBB. Must outlive every Solve().
+  Executor* executor = nullptr;
 
   /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
   double omega = 1;

@@ -46,6 +46,10 @@ class Solver {
   /// Bad input: Report::status says what, Report::bad_row or bad_body where, nothing is written.
   [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
                              std::span<Velocity> velocities);
+  /// The same into a report of an earlier call, whose memory is used again. Once a problem has been
+  /// solved, one that is no larger is solved without allocating, subspace steps apart.
+  void Solve(const ContactProblem& problem, std::span<double> impulses,
+             std::span<Velocity> velocities, Report* report);
 
   /// Solves a problem in matrix form. Our differences from the paper in Method::kPgsSm: rows join
   /// the set by the sign of w, too, a singular reduced matrix gets a proximal term, interior point

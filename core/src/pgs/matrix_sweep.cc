@@ -136,22 +136,46 @@ double Sweep(const SweepRows& rows, double omega, Direction direction, double* x
                  : SweepRange<Direction::kReverse, false>(rows, 0, end, omega, x);
 }
 
-double SweepColours(const SweepRows& rows, double omega, Crew* crew, double* x) {
-  // a block of a colour is summed by one thread, the blocks in their order
-  std::vector<int> blocks, first_block = {0};
-  for (size_t c = 0; c + 1 < rows.colours.size(); ++c) {
-    blocks.push_back(BlocksOf(rows.colours[c + 1] - rows.colours[c]));
-    first_block.push_back(first_block.back() + blocks.back());
+namespace {
+
+/// A sweep by colours; a block of a colour is relaxed and summed by one thread.
+class ColourSweep final : public StagedWork {
+ public:
+  ColourSweep(const SweepRows& rows, double omega, double* x)
+      : rows_(rows), omega_(omega), x_(x), first_block_{0} {
+    for (int c = 0; c < stages(); ++c) first_block_.push_back(first_block_.back() + units(c));
+    moved_.resize(first_block_.back());
   }
-  std::vector<double> moved(first_block.back());
-  crew->Run(blocks, [&](int colour, int block) {
-    const int begin = rows.colours[colour] + block * kBlockRows;
-    const int end = std::min(begin + kBlockRows, rows.colours[colour + 1]);
-    moved[first_block[colour] + block] =
-        omega == 1 ? SweepRange<Direction::kForward, true>(rows, begin, end, omega, x)
-                   : SweepRange<Direction::kForward, false>(rows, begin, end, omega, x);
-  });
-  return std::accumulate(moved.begin(), moved.end(), 0.0);
+
+  int stages() const override { return static_cast<int>(rows_.colours.size()) - 1; }
+  int units(int colour) const override {
+    return BlocksOf(rows_.colours[colour + 1] - rows_.colours[colour]);
+  }
+  void Do(int colour, int block) override {
+    const int begin = rows_.colours[colour] + block * kBlockRows;
+    const int end = std::min(begin + kBlockRows, rows_.colours[colour + 1]);
+    moved_[first_block_[colour] + block] =
+        omega_ == 1 ? SweepRange<Direction::kForward, true>(rows_, begin, end, omega_, x_)
+                    : SweepRange<Direction::kForward, false>(rows_, begin, end, omega_, x_);
+  }
+
+  /// Of all blocks, in their order.
+  double moved() const { return std::accumulate(moved_.begin(), moved_.end(), 0.0); }
+
+ private:
+  const SweepRows& rows_;
+  const double omega_;
+  double* const x_;
+  std::vector<int> first_block_;
+  std::vector<double> moved_;
+};
+
+}  // namespace
+
+double SweepColours(const SweepRows& rows, double omega, Crew* crew, double* x) {
+  ColourSweep sweep(rows, omega, x);
+  crew->Run(&sweep);
+  return sweep.moved();
 }
 
 }  // namespace cairn

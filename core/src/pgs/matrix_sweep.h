@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cairn/boxed_lcp.h"
-#include "executor_tbb.h"
+#include "crew.h"
 
 namespace cairn {
 

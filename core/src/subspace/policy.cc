@@ -6,8 +6,8 @@
 namespace cairn {
 namespace {
 
-// Work units (row relaxations) per piece of a step, fitted to timings of the tower, wall, pyramid,
-// chain and rubble scenes.
+// Relaxations of rows in double precision (pgs/row_sweep.h) per piece of a step, fitted to timings
+// of the tower, wall, pyramid, chain and rubble scenes.
 constexpr double kPrepareRow = 1.2;
 constexpr double kAnalyseRow = 10;  // where the body graph is new
 constexpr double kAssembleRow = 3.3;
@@ -39,19 +39,21 @@ double IslandMemory::Cost(const PackedIsland& island, const Settings& settings,
   return kPrepareRow * rows + factorisations * (factorise + settings.refinements * solve);
 }
 
-bool IslandMemory::StepPays(const PackedIsland& island, const Settings& settings,
-                            const BudgetMeter& meter, double sweep_units) {
-  const bool always = settings.step_policy == StepPolicy::kAlways;
-  if (pause_ > 0 && !always) {
+bool IslandMemory::Due(double rows, const Settings& settings, const StepBudget& budget) {
+  if (pause_ > 0 && settings.step_policy != StepPolicy::kAlways) {
     --pause_;
     return false;
   }
-  const double rows = static_cast<double>(island.rows.size());
-  if (!meter.Fits((kPrepareRow + kAnalyseRow) * rows, sweep_units)) return false;
+  return budget.meter->Fits(budget.gain * (kPrepareRow + kAnalyseRow) * rows, budget.sweep_units);
+}
+
+bool IslandMemory::StepPays(const PackedIsland& island, const Settings& settings,
+                            const StepBudget& budget) {
   system_.Prepare(island);
   const double cost = Cost(island, settings, settings.k_sm);
-  const bool too_dear = cost > kMostSweeps * rows && !always;
-  if (!too_dear && meter.Fits(cost, sweep_units)) return true;
+  const bool too_dear = cost > kMostSweeps * static_cast<double>(island.rows.size()) &&
+                        settings.step_policy != StepPolicy::kAlways;
+  if (!too_dear && budget.meter->Fits(budget.gain * cost, budget.sweep_units)) return true;
   pause_ = kPriceAgain;
   return false;
 }

@@ -8,19 +8,28 @@
 
 namespace cairn {
 
+/// What a step has to fit in.
+struct StepBudget {
+  BudgetMeter* meter;
+  double gain;  ///< Work units that sweeps do in the time that one took when steps were priced.
+  double sweep_units;  ///< Sweeps to be made after the step.
+};
+
 /// What the solver remembers of an island from frame to frame: the analysed system, the proximal
 /// term that worked, and whether steps pay.
 class IslandMemory {
  public:
   StepSettings Step(const Settings& settings) const;
 
-  /// Whether a step should be tried now: none failed here of late, it costs less than a step can
-  /// gain, and together with @p sweep_units of sweeps it is predicted to fit the budget.
-  /// On true, system() is prepared for the island.
-  bool StepPays(const PackedIsland& island, const Settings& settings, const BudgetMeter& meter,
-                double sweep_units);
+  /// Whether to ask StepPays(): no step failed here of late, and the budget is not all but spent.
+  bool Due(double rows, const Settings& settings, const StepBudget& budget);
+  /// Whether a step should be tried now: it costs less than a step can gain, and together with the
+  /// sweeps after it is predicted to fit the budget. On true, system() is prepared for the island.
+  bool StepPays(const PackedIsland& island, const Settings& settings, const StepBudget& budget);
 
-  /// Work units of a step that made so many factorisations. @pre StepPays()
+  /// What a step costs that made so many factorisations, in relaxations of rows in double
+  /// precision.
+  /// @pre StepPays()
   double Cost(const PackedIsland& island, const Settings& settings, int factorisations) const;
 
   void Accepted();

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace cairn {
+
+/// Where a Solver gets its threads from (Settings::executor). A game that has a job system of its
+/// own hands it in here, so that its threads and ours do not compete for the cores:
+///
+///   class JobSystem final : public cairn::Executor {
+///     void Submit(void (*work)(void*), void* what) override {
+///       jobs_.Push([work, what] { work(what); });
+///     }
+///   };
+///
+/// A Solve() on n threads submits up to n - 1 tasks when it begins and never waits for one to
+/// start: the calling thread does whatever no other has taken. A task works until the Solve() ends
+/// and then returns; one that starts later returns at once.
+class Executor {
+ public:
+  Executor() = default;
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+  virtual ~Executor() = default;
+
+  /// Calls work(what) once, now or later, on a thread other than the caller's. Called by the thread
+  /// that called Solve(). The call may come after the Solver is gone; it allocates nothing and does
+  /// not throw.
+  virtual void Submit(void (*work)(void*), void* what) = 0;
+};
+
+}  // namespace cairn

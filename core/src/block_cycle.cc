@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "block_cycle.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace cairn {
+namespace {
+
+/// Sweeps between two looks at how far the islands have come. The first look is after one sweep:
+/// what rests need not be swept again.
+constexpr int kMostSweepsUnseen = 8;
+/// An island is measured when its last sweep saw errors of at most so many tolerances: they are
+/// those of states on the way, not of the last one.
+constexpr double kNearTolerance = 2;
+
+double Largest(const Residual& residual) { return std::max(residual.max, residual.max_angular); }
+
+}  // namespace
+
+void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
+                     IslandMemories* memories, BudgetMeter* meter, Crew* crew, Report* report) {
+  BlockSweeps sweeps(frame, settings, meter, crew);
+  settings_ = &settings;
+  frame_ = frame;
+  meter_ = meter;
+  sweeps_ = &sweeps;
+  steps_.Begin(problem, settings, frame, memories);
+  Begin();
+  while (Active()) Leg();
+  meter_->Begin();
+  sweeps.EndCharges();
+  RestoreBest();
+  FillReport(report);
+}
+
+void BlockCycle::Begin() {
+  const Plan& plan = frame_->plan();
+  made_.assign(plan.groups().size(), {.active = true});
+  chosen_.assign(plan.groups().size(), {});
+  IslandState fresh;
+  fresh.best_energy = kInfinity;
+  states_.assign(plan.islands().size(), fresh);
+  islands_.assign(plan.islands().size(), {});
+  stepped_islands_.clear();
+  legs_ = 0;
+  if (settings_->max_sweeps > 0) return;
+  for (size_t i = 0; i < islands_.size(); ++i) {
+    islands_[i].stop = StopReason::kSweepLimit;
+    made_[plan.islands()[i].group].active = false;
+  }
+}
+
+bool BlockCycle::Active() const {
+  return std::any_of(made_.begin(), made_.end(), [](const GroupSweeps& g) { return g.active; });
+}
+
+int BlockCycle::SweepsMade() const {
+  for (const GroupSweeps& group : made_) {
+    if (group.active) return group.sweeps;
+  }
+  return 0;
+}
+
+void BlockCycle::Stop(int island, StopReason reason) {
+  const Plan& plan = frame_->plan();
+  const int g = plan.islands()[island].group;
+  islands_[island].stop = reason;
+  islands_[island].sweeps = made_[g].sweeps;
+
+  // the lanes go on while another island of the group does
+  const Group& group = plan.groups()[g];
+  const auto others = plan.islands_of_groups().subspan(group.first_island, group.islands);
+  made_[g].active = !std::all_of(others.begin(), others.end(), [this](int i) { return Done(i); });
+  if (made_[g].active) done_.Take(plan, island, frame_->blocks());
+}
+
+void BlockCycle::ChooseNone() {
+  for (GroupSweeps& group : chosen_) group.active = false;
+}
+
+void BlockCycle::MeasureChosen(std::vector<Residual>* residuals) {
+  if (residuals->size() < islands_.size()) residuals->resize(islands_.size());
+  sweeps_->Measure(chosen_);
+  for (size_t g = 0; g < chosen_.size(); ++g) {
+    if (chosen_[g].active) sweeps_->ErrorsOfIslands(frame_->plan().groups()[g], *residuals);
+  }
+}
+
+void BlockCycle::Leg() {
+  const int before = SweepsMade();
+  const int end = before + std::min(settings_->k_gs, settings_->max_sweeps - before);
+  for (bool whole = true; whole && Active() && SweepsMade() < end;) {
+    const int unseen = SweepsMade() == 0 ? 1 : kMostSweepsUnseen;
+    whole = sweeps_->Sweep(std::min(end - SweepsMade(), unseen), made_);
+    if (whole) See(made_);
+    if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
+    Judge(whole);
+  }
+  ++legs_;
+  KeepBest();
+  if (Active()) TakeSteps();
+}
+
+void BlockCycle::See(std::span<const GroupSweeps> groups) {
+  const Plan& plan = frame_->plan();
+  if (after_.size() < islands_.size()) after_.resize(islands_.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].active) sweeps_->ErrorsOfIslands(plan.groups()[g], after_);
+  }
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!Done(i) && groups[plan.islands()[i].group].active) states_[i].seen = after_[i];
+  }
+}
+
+void BlockCycle::Judge(bool seen) {
+  const Plan& plan = frame_->plan();
+  for (int i = 0; i < static_cast<int>(islands_.size()) && seen; ++i) {
+    if (!Open(i)) continue;
+    if (Largest(states_[i].seen) <= settings_->min_progress) Stop(i, StopReason::kStationary);
+  }
+  if (seen && settings_->tolerance > 0) JudgeNear();
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!Open(i)) continue;
+    const int sweeps = made_[plan.islands()[i].group].sweeps;
+    if (meter_->spent() && sweeps >= settings_->min_sweeps) {
+      Stop(i, meter_->stop_reason());
+    } else if (sweeps >= settings_->max_sweeps) {
+      Stop(i, StopReason::kSweepLimit);
+    }
+  }
+}
+
+void BlockCycle::JudgeNear() {
+  // near the solution, the state itself is measured
+  const auto near = [this](int i) {
+    return Open(i) && Largest(states_[i].seen) <= kNearTolerance * settings_->tolerance;
+  };
+  ChooseNone();
+  bool any = false;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!near(i)) continue;
+    Choose(i);
+    any = true;
+  }
+  if (!any) return;
+  MeasureChosen(&after_);
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (near(i) && Largest(after_[i]) <= settings_->tolerance) Stop(i, StopReason::kConverged);
+  }
+}
+
+void BlockCycle::KeepBest() {
+  // after 1, 2, 4, 8 ... legs: copies cost little, and the last one is never far behind
+  if (!std::has_single_bit(static_cast<unsigned>(legs_))) return;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    IslandState& state = states_[i];
+    if (Done(i) || state.seen.energy >= state.best_energy) continue;
+    best_.Take(frame_->plan(), i, frame_->blocks());
+    state.best_energy = state.seen.energy;
+  }
+}
+
+void BlockCycle::RestoreBest() {
+  const Plan& plan = frame_->plan();
+  BlockData* const blocks = &frame_->blocks();
+  // islands that were done before others of their group
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (islands_[i].sweeps < made_[plan.islands()[i].group].sweeps) done_.Restore(plan, i, blocks);
+  }
+
+  // sweeps may also make it worse, where friction bounds move: then the state of the snapshot
+  const auto doubtful = [this](int i) {
+    return states_[i].seen.energy > states_[i].best_energy &&
+           islands_[i].stop != StopReason::kConverged;
+  };
+  ChooseNone();
+  bool any = false;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!doubtful(i)) continue;
+    Choose(i);
+    any = true;
+  }
+  if (!any) return;
+  MeasureChosen(&before_);
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!doubtful(i)) continue;
+    after_steps_.Take(plan, i, *blocks);
+    best_.Restore(plan, i, blocks);
+  }
+  MeasureChosen(&after_);
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    const bool better = doubtful(i) && after_[i].energy < before_[i].energy;
+    if (doubtful(i) && !better) after_steps_.Restore(plan, i, blocks);
+  }
+}
+
+void BlockCycle::FillReport(Report* report) {
+  const Plan& plan = frame_->plan();
+  for (GroupSweeps& group : chosen_) group.active = true;
+  MeasureChosen(&after_);
+  report->islands.resize(islands_.size());
+  for (size_t i = 0; i < islands_.size(); ++i) {
+    IslandReport& island = report->islands[i] = islands_[i];
+    island.first_body = plan.islands()[i].first_body;
+    island.bodies = plan.islands()[i].bodies;
+    island.rows = plan.islands()[i].rows;
+    island.residual = after_[i];
+  }
+}
+
+}  // namespace cairn

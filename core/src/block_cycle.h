@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "block_frame.h"
+#include "block_snapshot.h"
+#include "block_steps.h"
+#include "budget.h"
+#include "cairn/report.h"
+#include "cairn/settings.h"
+#include "crew.h"
+#include "pgs/block_sweep.h"
+
+namespace cairn {
+
+/// The algorithm on blocks, in legs of k_gs sweeps that all islands make together:
+///
+///   repeat   k_gs sweeps
+///            subspace steps where they pay, and k_gs sweeps, or k_gs sweeps alone on the islands
+///            that end better so
+///   until the residual, the sweep limit or the budget says so
+///
+/// An island that is done keeps the state it had then, even where the lanes that it shares go on:
+/// without a budget, no island sees the others. Nothing is allocated in a frame that is no larger
+/// than those before it, steps apart.
+class BlockCycle {
+ public:
+  /// Runs to the end on a frame that has begun. @p report: gets the islands.
+  void Run(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
+           IslandMemories* memories, BudgetMeter* meter, Crew* crew, Report* report);
+
+ private:
+  /// What is known of an island on the way; its counts and its end are in islands_.
+  struct IslandState {
+    Residual seen;            ///< by the last measured sweep
+    Residual seen_with_step;  ///< the same, while sweeps alone are tried
+    double best_energy = 0;   ///< seen when the snapshot was taken, infinite if there is none
+    bool stepped = false;     ///< a step was taken before this leg, and is not judged yet
+    bool rests = false;       ///< one was judged after this leg: the next leg is one of sweeps
+    bool better_alone = false;
+  };
+
+  void Begin();
+  void Leg();
+  /// Reads what the last sweep of the groups saw.
+  void See(std::span<const GroupSweeps> groups);
+  void Judge(bool seen);
+  void JudgeNear();
+  void Stop(int island, StopReason reason);
+  bool Done(int island) const { return islands_[island].stop != StopReason::kNotStarted; }
+  /// Neither done, nor to be compared with itself first.
+  bool Open(int island) const { return !Done(island) && !states_[island].stepped; }
+  bool Active() const;
+  int SweepsMade() const;
+  void KeepBest();
+  void RestoreBest();
+  /// Whether each island belongs to a group that the next measurement is for.
+  bool Chosen(int island) const { return chosen_[frame_->plan().islands()[island].group].active; }
+  void Choose(int island) { chosen_[frame_->plan().islands()[island].group].active = true; }
+  void ChooseNone();
+  /// Residuals of the islands of the groups that are chosen.
+  void MeasureChosen(std::vector<Residual>* residuals);
+  void FillReport(Report* report);
+
+  // block_cycle_steps.cc
+  void TakeSteps();
+  void FindCandidates();
+  void KeepBetterSteps(int sweeps);
+  void TryWithoutSteps(int sweeps);
+
+  const Settings* settings_ = nullptr;
+  BlockFrame* frame_ = nullptr;
+  BudgetMeter* meter_ = nullptr;
+  BlockSweeps* sweeps_ = nullptr;
+  BlockSteps steps_;
+
+  std::vector<GroupSweeps> made_, chosen_;
+  std::vector<IslandState> states_;
+  std::vector<IslandReport> islands_;
+  std::vector<int> stepped_islands_;
+  std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
+  BlockSnapshot done_, best_, before_steps_, after_steps_;
+  int legs_ = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "block_frame.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include "validate.h"
+
+namespace cairn {
+namespace {
+
+/// Bodies that one thread whitens, or writes back, at a time.
+constexpr int kBodiesOfUnit = 256;
+
+/// One stage of units that are all alike.
+template <class Function>
+class Parts final : public StagedWork {
+ public:
+  Parts(int units, const Function& function) : units_(units), function_(function) {}
+  int stages() const override { return 1; }
+  int units(int) const override { return units_; }
+  void Do(int, int unit) override { function_(unit); }
+
+ private:
+  int units_;
+  const Function& function_;
+};
+
+/// function(first, count) for all parts of a range.
+template <class Function>
+void InParts(int size, int of_part, Crew* crew, const Function& function) {
+  const auto part = [&](int unit) {
+    const int first = unit * of_part;
+    function(first, std::min(of_part, size - first));
+  };
+  Parts parts((size + of_part - 1) / of_part, part);
+  crew->Run(&parts);
+}
+
+/// The whole plan, stage by stage, with one kernel.
+class Pass final : public StagedWork {
+ public:
+  Pass(BlockFrame* frame, simd::PairKernels::Kernel kernel) : frame_(frame), kernel_(kernel) {}
+  int stages() const override { return static_cast<int>(frame_->plan().stages().size()); }
+  int units(int stage) const override { return frame_->plan().stages()[stage].units; }
+  void Do(int stage, int unit) override {
+    const Plan& plan = frame_->plan();
+    const Unit& of = plan.units()[plan.stages()[stage].first_unit + unit];
+    kernel_(frame_->WorkOn(of.first_block, of.blocks));
+  }
+
+ private:
+  BlockFrame* frame_;
+  simd::PairKernels::Kernel kernel_;
+};
+
+/// The worst of what several threads found.
+class WorstResult {
+ public:
+  void Add(PackResult result) {
+    int worst = worst_.load(std::memory_order_relaxed);
+    const int now = static_cast<int>(result);
+    while (now > worst && !worst_.compare_exchange_weak(worst, now)) continue;
+  }
+  PackResult get() const { return static_cast<PackResult>(worst_.load()); }
+
+ private:
+  std::atomic<int> worst_{static_cast<int>(PackResult::kDone)};
+};
+
+}  // namespace
+
+simd::PairWork BlockFrame::WorkOn(int first_block, int blocks) {
+  return {.blocks = plan_.blocks().data() + first_block,
+          .count = blocks,
+          .data = blocks_.data.data(),
+          .x = blocks_.x.data(),
+          .bodies = blocks_.bodies.data(),
+          .errors = errors_.data() + first_block};
+}
+
+BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
+  return {problem, plan_, movable_, bodies_, omega_, pack_row_};
+}
+
+PackResult BlockFrame::Begin(const ContactProblem& problem, double omega,
+                             std::span<const double> impulses, Crew* crew) {
+  if (!WhitenBodies(problem.bodies, crew)) return PackResult::kChanged;
+
+  // the plan of the last frame, if nothing began or ended
+  PackResult result = PackResult::kChanged;
+  const bool alike = planned_ && omega == omega_ && problem.rows.size() == planned_rows_ &&
+                     movable_now_ == movable_;
+  if (alike) result = Pack(problem, impulses, crew);
+  if (result == PackResult::kChanged) {
+    planned_ = false;
+    if (!Validate(problem, impulses).ok()) return PackResult::kChanged;
+    movable_.swap(movable_now_);
+    omega_ = omega;
+    planned_rows_ = problem.rows.size();
+    plan_.Make(problem, movable_, omega);
+    ++plan_number_;
+    PackerOf(problem).Reserve(&blocks_);
+    if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
+    planned_ = true;
+    result = Pack(problem, impulses, crew);
+  }
+  if (result == PackResult::kDone) Start(crew);
+  return result;
+}
+
+bool BlockFrame::WhitenBodies(std::span<const Body> bodies, Crew* crew) {
+  bodies_.resize(bodies.size());
+  movable_now_.resize(bodies.size());
+  std::atomic<bool> valid{true};
+  InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      movable_now_[i] = CanMove(bodies[i]);
+      if (!Whiten(bodies[i], &bodies_[i])) valid.store(false, std::memory_order_relaxed);
+    }
+  });
+  return valid;
+}
+
+PackResult BlockFrame::Pack(const ContactProblem& problem, std::span<const double> impulses,
+                            Crew* crew) {
+  const BlockPacker packer = PackerOf(problem);
+  WorstResult worst;
+  const auto pack = [&](int unit) {
+    const Unit& of = plan_.units()[unit];
+    worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
+  };
+  Parts parts(static_cast<int>(plan_.units().size()), pack);
+  crew->Run(&parts);
+  return worst.get();
+}
+
+void BlockFrame::Start(Crew* crew) {
+  std::memset(static_cast<void*>(blocks_.bodies.data()), 0,
+              plan_.body_of_slot().size() * sizeof(simd::BodyLane));
+  Pass pass(this, kernels_->start);
+  crew->Run(&pass);
+}
+
+void BlockFrame::End(const ContactProblem& problem, Crew* crew, std::span<double> impulses,
+                     std::span<Velocity> velocities) const {
+  const BlockPacker packer = PackerOf(problem);
+  const auto write = [&](int unit) {
+    const Unit& of = plan_.units()[unit];
+    packer.WriteImpulses(of.first_block, of.blocks, blocks_, impulses);
+  };
+  Parts parts(static_cast<int>(plan_.units().size()), write);
+  crew->Run(&parts);
+  InParts(static_cast<int>(problem.bodies.size()), kBodiesOfUnit, crew,
+          [&](int first, int count) { packer.WriteVelocities(first, count, blocks_, velocities); });
+}
+
+}  // namespace cairn

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "block_pack.h"
+#include "cairn/contact_problem.h"
+#include "cairn/report.h"
+#include "crew.h"
+#include "plan.h"
+#include "simd/pair_sweep.h"
+
+namespace cairn {
+
+/// A contact problem in blocks, from frame to frame: the plan is kept while the structure of the
+/// problem stays, and no memory is asked for unless a frame is larger than all before it.
+class BlockFrame {
+ public:
+  /// Lays out the problem, with u from the start impulses. On kChanged the input is not valid: see
+  /// Validate().
+  [[nodiscard]] PackResult Begin(const ContactProblem& problem, double omega,
+                                 std::span<const double> impulses, Crew* crew);
+  /// Writes the results.
+  void End(const ContactProblem& problem, Crew* crew, std::span<double> impulses,
+           std::span<Velocity> velocities) const;
+
+  const Plan& plan() const { return plan_; }
+  /// Counts how often the plan was made.
+  int plan_number() const { return plan_number_; }
+  std::span<const WhitenedBody> bodies() const { return bodies_; }
+  BlockData& blocks() { return blocks_; }
+  std::span<simd::BlockError> errors() { return errors_; }
+  const simd::PairKernels& kernels() const { return *kernels_; }
+
+  /// The work of some blocks of the plan.
+  simd::PairWork WorkOn(int first_block, int blocks);
+
+ private:
+  bool WhitenBodies(std::span<const Body> bodies, Crew* crew);
+  PackResult Pack(const ContactProblem& problem, std::span<const double> impulses, Crew* crew);
+  void Start(Crew* crew);
+  BlockPacker PackerOf(const ContactProblem& problem) const;
+
+  const simd::Target target_ = simd::ChooseTarget().target;
+  const simd::PairKernels* kernels_ = &simd::PairKernelsFor(target_);
+  simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
+  Plan plan_;
+  int plan_number_ = 0;
+  double omega_ = 1;
+  size_t planned_rows_ = 0;
+  bool planned_ = false;
+  MovableBodies movable_, movable_now_;
+  std::vector<WhitenedBody> bodies_;
+  BlockData blocks_;
+  std::vector<simd::BlockError> errors_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+#include "plan.h"
+#include "simd/pair_block.h"
+#include "simd/row_pack.h"
+#include "whitening.h"
+
+namespace cairn {
+
+/// Everything that kernels read and write, in floats: 50 bytes or so a row.
+struct BlockData {
+  std::vector<simd::Line> data;        ///< constant during a Solve(); see simd::PairForm
+  std::vector<simd::Line> x;           ///< impulses
+  std::vector<simd::BodyLane> bodies;  ///< u, by slot of the plan
+};
+
+/// What became of rows that were to be packed.
+enum class PackResult {
+  kDone,
+  /// The problem is not the one that was planned for, or its numbers are not valid.
+  kChanged,
+  /// Valid, but out of the range of a float.
+  kOutOfRange,
+};
+
+/// A problem on its way into blocks, and back. Different blocks may be packed at the same time.
+struct BlockPacker {
+  const ContactProblem& problem;
+  const Plan& plan;
+  const MovableBodies& movable;
+  std::span<const WhitenedBody> bodies;
+  double omega;
+  simd::RowPackKernel pack_row;
+
+  /// Makes room.
+  void Reserve(BlockData* blocks) const;
+  /// Rows of so many blocks from the first on; x from the caller's impulses, brought inside their
+  /// bounds.
+  PackResult Pack(int first_block, int count, std::span<const double> impulses,
+                  BlockData* blocks) const;
+  /// Impulses of the caller from x.
+  void WriteImpulses(int first_block, int count, const BlockData& blocks,
+                     std::span<double> impulses) const;
+  /// Velocities of so many bodies from the first on.
+  void WriteVelocities(int first_body, int count, const BlockData& blocks,
+                       std::span<Velocity> velocities) const;
+};
+
+}  // namespace cairn

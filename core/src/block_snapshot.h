@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "block_pack.h"
+#include "plan.h"
+
+namespace cairn {
+
+/// A copy of the state of some islands, each where it is in the blocks.
+class BlockSnapshot {
+ public:
+  void Take(const Plan& plan, int island, const BlockData& blocks);
+  void Restore(const Plan& plan, int island, BlockData* blocks) const;
+
+ private:
+  std::vector<simd::Line> x_;
+  std::vector<simd::BodyLane> bodies_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "block_solver.h"
+
+namespace cairn {
+namespace {
+
+/// Problems of fewer rows stay on one thread: waiting for another would cost more than it does.
+constexpr size_t kParallelRows = 4096;
+
+/// Keeps helpers awake while it lives.
+class Shift {
+ public:
+  explicit Shift(Crew* crew) : crew_(crew) { crew_->Call(); }
+  ~Shift() { crew_->Dismiss(); }
+  Shift(const Shift&) = delete;
+  Shift& operator=(const Shift&) = delete;
+
+ private:
+  Crew* crew_;
+};
+
+}  // namespace
+
+PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
+                              BudgetMeter* meter, std::span<double> impulses,
+                              std::span<Velocity> velocities, Report* report) {
+  crew_.Follow(settings);
+  Crew* const crew = problem.rows.size() < kParallelRows ? &alone_ : &crew_;
+  const Shift shift(crew);
+  const PackResult begun = frame_.Begin(problem, OmegaOf(settings), impulses, crew);
+  if (begun != PackResult::kDone) return begun;
+  cycle_.Run(problem, settings, &frame_, &memories_, meter, crew, report);
+  frame_.End(problem, crew, impulses, velocities);
+  return PackResult::kDone;
+}
+
+}  // namespace cairn

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "block_cycle.h"
+#include "block_frame.h"
+#include "budget.h"
+#include "cairn/contact_problem.h"
+#include "cairn/report.h"
+#include "cairn/settings.h"
+#include "crew.h"
+#include "memories.h"
+
+namespace cairn {
+
+/// Solves contact problems on kernels, in floats, colour by colour, on threads.
+class BlockSolver {
+ public:
+  /// kDone: solved, and the islands of the report are filled in. Otherwise nothing is written: on
+  /// kChanged the input is not valid.
+  [[nodiscard]] PackResult Solve(const ContactProblem& problem, const Settings& settings,
+                                 BudgetMeter* meter, std::span<double> impulses,
+                                 std::span<Velocity> velocities, Report* report);
+  IslandMemories& memories() { return memories_; }
+
+ private:
+  BlockFrame frame_;
+  BlockCycle cycle_;
+  IslandMemories memories_;
+  Crew crew_{1}, alone_{1};
+};
+
+}  // namespace cairn

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "cairn/executor.h"
+#include "cairn/settings.h"
+
+namespace cairn {
+
+/// Work in stages, each a number of units that may be done at the same time.
+class StagedWork {
+ public:
+  virtual int stages() const = 0;
+  /// Asked once a stage, after GoOn().
+  virtual int units(int stage) const = 0;
+  virtual void Do(int stage, int unit) = 0;
+  /// Asked on the caller's thread before each stage, when all before it are done; false ends the
+  /// work.
+  virtual bool GoOn(int stage);
+
+ protected:
+  ~StagedWork() = default;
+};
+
+/// The threads that work on one Solve().
+///
+/// One long task per helper, not one per stage: helpers stay awake between stages and claim units
+/// by an atomic each, from a home position of their own, so that a helper meets the same units in
+/// every sweep. Completion is counted in units. Hence nobody waits for a helper that was not given
+/// a core, unless it has claimed something.
+class Crew {
+ public:
+  /// @p threads: the caller included, in [1, 1024]; one starts no others. Without an executor
+  /// oneTBB provides the helpers.
+  explicit Crew(int threads, Executor* executor = nullptr);
+  ~Crew();
+  Crew(Crew&&) noexcept;
+  Crew& operator=(Crew&&) noexcept;
+
+  int threads() const;
+  /// Becomes that of the settings, if it is not already.
+  void Follow(const Settings& settings);
+
+  /// Calls helpers, who stay until Dismiss(). Run() does so itself where nobody did before.
+  void Call();
+  void Dismiss();
+
+  /// Does all units of all stages, stage after stage, each unit once.
+  void Run(StagedWork* work);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "pgs/block_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cairn {
+
+/// So many sweeps, or one measurement, as work in stages.
+class BlockSweeps::Pass final : public StagedWork {
+ public:
+  enum class Kind { kSweeps, kMeasure };
+
+  Pass(const BlockSweeps& sweeps, Kind kind, int count, std::span<const GroupSweeps> groups)
+      : sweeps_(sweeps), kind_(kind), count_(count), groups_(groups) {
+    for (const GroupSweeps& group : groups) {
+      if (group.active) made_ = group.sweeps;
+    }
+  }
+
+  int stages() const override { return count_ * stages_of_sweep(); }
+  int units(int) const override { return units_; }
+
+  void Do(int stage, int unit) override {
+    const Unit& of = plan().units()[StageOf(stage).first_unit + unit];
+    if (!groups_[of.group].active) return;
+    const int sweep = stage / stages_of_sweep();
+    simd::PairWork work = sweeps_.frame_->WorkOn(of.first_block, of.blocks);
+    work.sweep = groups_[of.group].sweeps + sweep;
+    work.hold_lifted = sweeps_.settings_.lifted_friction == LiftedFriction::kHold;
+    const simd::PairKernels& kernels = sweeps_.frame_->kernels();
+    const auto last = sweep == count_ - 1 ? kernels.measured_sweep : kernels.sweep;
+    (kind_ == Kind::kMeasure ? kernels.measure : last)(work);
+  }
+
+  bool GoOn(int stage) override {
+    ChargeLast();
+    const int sweeps = made_ + stage / stages_of_sweep();
+    const bool must = kind_ == Kind::kMeasure || sweeps < sweeps_.settings_.min_sweeps;
+    if (sweeps_.meter_->spent() && !must) return false;
+    const double left = must ? kInfinity : sweeps_.meter_->work_left();
+    PlanStage(StageOf(stage), left);
+    return true;
+  }
+
+  /// Charges the last stage. Returns how many sweeps are complete.
+  int Finish() {
+    ChargeLast();
+    return stages_of_sweep() > 0 ? whole_stages_ / stages_of_sweep() : count_;
+  }
+
+ private:
+  const Plan& plan() const { return sweeps_.frame_->plan(); }
+  int stages_of_sweep() const { return static_cast<int>(plan().stages().size()); }
+  const Stage& StageOf(int stage) const { return plan().stages()[stage % stages_of_sweep()]; }
+
+  /// As many of its units as the work that is left allows, but one at least.
+  void PlanStage(const Stage& stage, double left) {
+    units_ = 0;
+    rows_ = 0;
+    while (units_ < stage.units && (units_ == 0 || rows_ < left)) {
+      const Unit& unit = plan().units()[stage.first_unit + units_++];
+      if (groups_[unit.group].active) rows_ += unit.rows;
+    }
+    if (units_ == stage.units) ++whole_stages_;
+  }
+
+  void ChargeLast() {
+    const double share = kind_ == Kind::kMeasure ? kMeasureSweeps : 1;
+    const double rows = static_cast<double>(std::exchange(rows_, 0));
+    if (rows > 0 && sweeps_.charges_) sweeps_.meter_->Charge(WorkKind::kSweep, share * rows);
+  }
+
+  const BlockSweeps& sweeps_;
+  const Kind kind_;
+  const int count_;
+  std::span<const GroupSweeps> groups_;
+  int made_ = 0;           ///< sweeps before this pass
+  int whole_stages_ = 0;   ///< planned so far
+  int units_ = 0;          ///< of the present stage
+  std::int64_t rows_ = 0;  ///< in them
+};
+
+bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
+  meter_->Begin();
+  Pass pass(*this, Pass::Kind::kSweeps, count, groups);
+  crew_->Run(&pass);
+  const int made = pass.Finish();
+  for (GroupSweeps& group : groups) {
+    if (group.active) group.sweeps += made;
+  }
+  return made == count;
+}
+
+void BlockSweeps::Measure(std::span<const GroupSweeps> groups) {
+  if (charges_) meter_->Begin();
+  Pass pass(*this, Pass::Kind::kMeasure, 1, groups);
+  crew_->Run(&pass);
+  pass.Finish();
+}
+
+Residual BlockSweeps::ErrorOf(const Group& group) const {
+  float most = 0, most_angular = 0;
+  double energy = 0;
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    const simd::BlockError& error = frame_->errors()[b];
+    for (int lane = 0; lane < frame_->plan().blocks()[b].lanes; ++lane) {
+      most = std::max(most, error.max.lane[lane]);
+      most_angular = std::max(most_angular, error.max_angular.lane[lane]);
+      energy += static_cast<double>(error.energy.lane[lane]);
+    }
+  }
+  return {most, most_angular, std::sqrt(energy)};
+}
+
+void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const {
+  const Plan& plan = frame_->plan();
+  const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+  if (islands.size() == 1) {
+    residuals[islands[0]] = ErrorOf(group);
+    return;
+  }
+  for (int island : islands) residuals[island] = {};
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    const simd::BlockError& error = frame_->errors()[b];
+    for (int lane = 0; lane < plan.blocks()[b].lanes; ++lane) {
+      Residual& residual = residuals[plan.island_of(b, lane)];
+      residual.max = std::max<double>(residual.max, error.max.lane[lane]);
+      residual.max_angular = std::max<double>(residual.max_angular, error.max_angular.lane[lane]);
+      residual.energy += static_cast<double>(error.energy.lane[lane]);
+    }
+  }
+  for (int island : islands) residuals[island].energy = std::sqrt(residuals[island].energy);
+}
+
+}  // namespace cairn

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: MIT
+#include "plan.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+
+/// Small islands share a group until it has so many rows: its blocks, impulses and bodies then fit
+/// the first two levels of the cache, and its lanes are full. Larger islands are swept by colours.
+constexpr int kGroupRows = 1536;
+/// A claim of a thread: a few microseconds of work.
+constexpr int kUnitRows = 1024;
+/// The budget is looked at between stages: at most about 50 us of work each, on slow targets too.
+constexpr int kStageRows = 8192;
+/// Colours smaller than this are not worth waiting for each other: one thread takes several.
+constexpr int kTinyColour = 512;
+/// Blocks that a pair without a colour may still join.
+constexpr int kOpenBlocks = 8;
+
+bool Shares(const simd::PairBlock& block, int a, int b) {
+  for (int lane = 0; lane < block.lanes; ++lane) {
+    const int of_a = block.a[lane], of_b = block.b[lane];
+    if (of_a == a || (b != 0 && (of_a == b || of_b == b)) || of_b == a) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void Plan::Make(const ContactProblem& problem, const MovableBodies& movable, double omega) {
+  pair_finder_.Find(problem, movable, omega, &shapes_, &list_);
+  colouring_.Update(problem.bodies, list_.pairs);
+  FindIslands(static_cast<int>(problem.bodies.size()));
+  FindGroups();
+  SortPairs();
+  GiveSlots(problem.bodies.size());
+  FillBlocks();
+  FindStages();
+}
+
+void Plan::FindIslands(int bodies) {
+  island_finder_.Start(bodies);
+  for (const Pair& pair : list_.pairs) island_finder_.Join(pair.a, pair.b);
+  islands_.assign(island_finder_.Number(), {});
+
+  const std::vector<int>& island_of = island_finder_.island_of_body();
+  for (int body = bodies - 1; body >= 0; --body) {
+    if (island_of[body] < 0) continue;
+    PlannedIsland& island = islands_[island_of[body]];
+    island.first_body = body;
+    ++island.bodies;
+  }
+  // pairs that nothing can move for are an island of their own, the last
+  island_of_pair_.resize(list_.pairs.size());
+  const int attached = static_cast<int>(islands_.size());
+  for (size_t i = 0; i < list_.pairs.size(); ++i) {
+    const Pair& pair = list_.pairs[i];
+    const int island = pair.a == kWorld ? attached : island_of[pair.a];
+    if (island == static_cast<int>(islands_.size())) islands_.emplace_back();
+    islands_[island].rows += pair.rows;
+    island_of_pair_[i] = island;
+  }
+}
+
+void Plan::FindGroups() {
+  groups_.clear();
+  islands_of_groups_.clear();
+  // large islands alone
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (islands_[i].rows <= kGroupRows) continue;
+    islands_[i].group = static_cast<int>(groups_.size());
+    groups_.push_back({.first_island = static_cast<int>(islands_of_groups_.size()),
+                       .islands = 1,
+                       .rows = islands_[i].rows});
+    islands_of_groups_.push_back(i);
+  }
+  // small ones together, and apart from what nothing can move for
+  bool open = false;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (islands_[i].rows > kGroupRows) continue;
+    const bool unattached = islands_[i].first_body < 0;
+    if (!open || unattached || groups_.back().rows + islands_[i].rows > kGroupRows) {
+      groups_.push_back({.first_island = static_cast<int>(islands_of_groups_.size())});
+      open = true;
+    }
+    islands_[i].group = static_cast<int>(groups_.size()) - 1;
+    ++groups_.back().islands;
+    groups_.back().rows += islands_[i].rows;
+    islands_of_groups_.push_back(i);
+  }
+}
+
+template <class Key>
+void Plan::SortBy(int keys, const Key& key) {
+  counts_.assign(keys + 1, 0);
+  for (int pair : order_) ++counts_[key(pair) + 1];
+  for (int k = 0; k < keys; ++k) counts_[k + 1] += counts_[k];
+  scratch_.resize(order_.size());
+  for (int pair : order_) scratch_[counts_[key(pair)]++] = pair;
+  order_.swap(scratch_);
+}
+
+void Plan::SortPairs() {
+  // by group, colour and shape; those that are alike stay in the order of the problem
+  order_.resize(list_.pairs.size());
+  for (size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
+  constexpr int kForms = 3;
+  const auto shape = [this](int i) {
+    return list_.pairs[i].shape * kForms + static_cast<int>(list_.pairs[i].form);
+  };
+  SortBy(shapes_.size() * kForms, shape);
+  SortBy(Colour::kCount, [this](int i) { return colouring_.colours()[i]; });
+  SortBy(static_cast<int>(groups_.size()),
+         [this](int i) { return islands_[island_of_pair_[i]].group; });
+}
+
+int Plan::SlotOf(int body) {
+  int& slot = slot_of_body_[body];
+  if (slot == 0) {
+    slot = static_cast<int>(body_of_slot_.size());
+    body_of_slot_.push_back(body);
+  }
+  return slot;
+}
+
+void Plan::GiveSlots(size_t bodies) {
+  // by first use in a sweep: blocks that follow each other find their bodies close together
+  slot_of_body_.assign(bodies, 0);
+  body_of_slot_.assign(1, kWorld);
+  for (Group& group : groups_) group.slots = 0;
+  for (int i : order_) {
+    const Pair& pair = list_.pairs[i];
+    const int before = static_cast<int>(body_of_slot_.size());
+    if (pair.a != kWorld) SlotOf(pair.a);
+    if (pair.b != kWorld) SlotOf(pair.b);
+    if (pair.a == kWorld) body_of_slot_.push_back(kWorld);
+    Group& group = groups_[islands_[island_of_pair_[i]].group];
+    if (group.slots == 0) group.first_slot = before;
+    group.slots += static_cast<int>(body_of_slot_.size()) - before;
+  }
+}
+
+simd::PairBlock& Plan::AddBlock(int pair) {
+  const Pair& of = list_.pairs[pair];
+  simd::PairBlock& block = blocks_.emplace_back();
+  block = {};
+  block.rows = shapes_.rows(of.shape).data();
+  block.row_count = of.rows;
+  block.form = of.form;
+  block.data = static_cast<std::uint32_t>(data_lines_);
+  block.x = static_cast<std::uint32_t>(x_lines_);
+  data_lines_ += simd::PairLines(of.form) + shapes_.lines(of.form, of.shape);
+  x_lines_ += of.rows;
+  pair_of_lane_.resize(blocks_.size() * kLanes, -1);
+  colour_of_block_.push_back(colouring_.colours()[pair]);
+  return block;
+}
+
+void Plan::AddLane(int pair, simd::PairBlock* block) {
+  const Pair& of = list_.pairs[pair];
+  const int index = static_cast<int>(block - blocks_.data());
+  pair_of_lane_[index * kLanes + block->lanes] = pair;
+  block->a[block->lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
+  block->b[block->lanes] = of.b == kWorld ? 0 : slot_of_body_[of.b];
+  ++block->lanes;
+}
+
+void Plan::FillOverflow(size_t begin, size_t end) {
+  const size_t first_block = blocks_.size();
+  for (size_t i = begin; i < end; ++i) {
+    const Pair& pair = list_.pairs[order_[i]];
+    const int a = slot_of_body_[pair.a], b = pair.b == kWorld ? 0 : slot_of_body_[pair.b];
+    simd::PairBlock* fitting = nullptr;
+    const size_t oldest =
+        std::max(first_block, blocks_.size() - std::min<size_t>(blocks_.size(), kOpenBlocks));
+    for (size_t at = oldest; at < blocks_.size() && fitting == nullptr; ++at) {
+      const Pair& other = list_.pairs[pair_of_lane_[at * kLanes]];
+      const bool alike = other.shape == pair.shape && other.form == pair.form;
+      const bool room = blocks_[at].lanes < kLanes && !Shares(blocks_[at], a, b);
+      if (alike && room) fitting = &blocks_[at];
+    }
+    AddLane(order_[i], fitting != nullptr ? fitting : &AddBlock(order_[i]));
+  }
+}
+
+void Plan::FillBlocks() {
+  blocks_.clear();
+  pair_of_lane_.clear();
+  colour_of_block_.clear();
+  data_lines_ = x_lines_ = 0;
+  size_t i = 0;
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    Group& group = groups_[g];
+    group.first_block = static_cast<int>(blocks_.size());
+    group.first_x = x_lines_;
+    unmoved_slot_ = group.first_slot;
+    const auto of_group = [&](size_t at) {
+      return at < order_.size() && islands_[island_of_pair_[order_[at]]].group == g;
+    };
+    const size_t begin = i;
+    while (of_group(i) && colouring_.colours()[order_[i]] == Colour::kOverflow) ++i;
+    FillOverflow(begin, i);
+
+    // a block ends with its colour, its shape, or full
+    for (; of_group(i); ++i) {
+      const Pair& pair = list_.pairs[order_[i]];
+      const bool same = static_cast<int>(blocks_.size()) > group.first_block &&
+                        blocks_.back().lanes < kLanes &&
+                        colour_of_block_.back() == colouring_.colours()[order_[i]] &&
+                        blocks_.back().form == pair.form &&
+                        blocks_.back().rows == shapes_.rows(pair.shape).data();
+      AddLane(order_[i], same ? &blocks_.back() : &AddBlock(order_[i]));
+    }
+    group.blocks = static_cast<int>(blocks_.size()) - group.first_block;
+    group.x_lines = x_lines_ - group.first_x;
+  }
+}
+
+int Plan::RowsOf(int first_block, int end_block) const {
+  int rows = 0;
+  for (int b = first_block; b < end_block; ++b) rows += blocks_[b].lanes * blocks_[b].row_count;
+  return rows;
+}
+
+void Plan::AddUnits(int first_block, int end_block, int group) {
+  // blocks of one colour, a stage at a time
+  for (int b = first_block; b < end_block;) {
+    stages_.push_back({.first_unit = static_cast<int>(units_.size())});
+    for (int rows = 0; b < end_block && rows < kStageRows;) {
+      Unit unit{.first_block = b, .group = group};
+      for (; b < end_block && unit.rows < kUnitRows; ++b) unit.rows += RowsOf(b, b + 1);
+      unit.blocks = b - unit.first_block;
+      rows += unit.rows;
+      units_.push_back(unit);
+      ++stages_.back().units;
+    }
+  }
+}
+
+void Plan::StagesOf(int g) {
+  const Group& group = groups_[g];
+  const int end = group.first_block + group.blocks;
+  bool tail = false;  // the last unit is one of tiny colours, and may be continued
+  for (int b = group.first_block; b < end;) {
+    int next = b + 1;
+    while (next < end && colour_of_block_[next] == colour_of_block_[b]) ++next;
+    const int rows = RowsOf(b, next);
+    const bool serial = colour_of_block_[b] == Colour::kOverflow || rows < kTinyColour;
+    if (!serial) {
+      AddUnits(b, next, g);
+    } else if (tail && units_.back().rows + rows <= kStageRows) {
+      units_.back().blocks += next - b;
+      units_.back().rows += rows;
+    } else {
+      stages_.push_back({.first_unit = static_cast<int>(units_.size()), .units = 1});
+      units_.push_back({.first_block = b, .blocks = next - b, .group = g, .rows = rows});
+    }
+    tail = serial;
+    b = next;
+  }
+}
+
+void Plan::FindStages() {
+  units_.clear();
+  stages_.clear();
+  int rows = kStageRows;  // of the last stage of whole groups
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    const Group& group = groups_[g];
+    if (group.rows > kGroupRows) {
+      StagesOf(g);
+      continue;
+    }
+    if (rows >= kStageRows) {
+      stages_.push_back({.first_unit = static_cast<int>(units_.size())});
+      rows = 0;
+    }
+    units_.push_back({.first_block = group.first_block,
+                      .blocks = group.blocks,
+                      .group = g,
+                      .rows = static_cast<int>(group.rows)});
+    ++stages_.back().units;
+    rows += static_cast<int>(group.rows);
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace cairn::simd {
+
+// A lane is a pair of bodies with all its rows, a block is 16 lanes that share no body, on every
+// target: one register of AVX-512, two of AVX2, four of SSE4. Layout, padding and results do not
+// depend on the CPU.
+//
+// Velocities are whitened (core/src/pack.h): u = G' x, so that one vector G per row serves as J and
+// as M^-1 J'.
+
+inline constexpr int kLanes = 16;
+
+/// One number of every lane, a cache line.
+struct alignas(64) Line {
+  float lane[kLanes];
+};
+
+/// u of a body: linear x y z, 0, angular x y z, 0.
+struct alignas(32) BodyLane {
+  float u[8];
+};
+
+/// What the rows of a pair look like in memory. First come the lines of the pair, then the rows.
+enum class PairForm : std::uint8_t {
+  /// Any rows between two movable bodies. Row: G_a (6 lines), G_b (6).
+  kJoint,
+  /// Rows that act on the bodies with opposite forces. Pair: s_a, s_b, the square roots of the
+  /// inverse masses, not both 0. Row: the direction n, so that the linear parts are s_a n and -s_b
+  /// n (3), the
+  /// angular parts of G_a (3) and G_b (3).
+  kContact,
+  /// Rows between a body and what does not move. Row: G_a (6).
+  kSingle,
+};
+
+/// The bounds of a row, and the lines they take.
+enum class RowBound : std::uint8_t {
+  kFree,         ///< None.
+  kPush,         ///< [0, infinity), no lines.
+  kOwn,          ///< lo, hi (2 lines).
+  kFriction,     ///< +-coefficient max(0, x of the parent) (1 line).
+  kCutFriction,  ///< The same inside lo, hi (3 lines).
+};
+
+/// What the rows of all lanes have in common.
+struct RowShape {
+  RowBound bound = RowBound::kFree;
+  bool soft = false;         ///< Has compliance (1 line).
+  bool relaxed = false;      ///< Has a step length other than 1 / d (1 line: its ratio to that).
+  bool angular = false;      ///< Only turns: counts as [rad/s].
+  std::int16_t parent = -1;  ///< Row of the lane that bounds friction.
+  /// Takes part in that many sweeps of a Solve().
+  std::int32_t max_sweeps = std::numeric_limits<std::int32_t>::max();
+
+  friend bool operator==(const RowShape&, const RowShape&) = default;
+};
+
+/// Lines in front of the rows.
+constexpr int PairLines(PairForm form) { return form == PairForm::kContact ? 2 : 0; }
+
+/// Lines of G of a row.
+constexpr int JacobianLines(PairForm form) {
+  return form == PairForm::kJoint ? 12 : form == PairForm::kContact ? 9 : 6;
+}
+
+constexpr int BoundLines(RowBound bound) {
+  switch (bound) {
+    case RowBound::kFree:
+    case RowBound::kPush:
+      return 0;
+    case RowBound::kOwn:
+      return 2;
+    case RowBound::kFriction:
+      return 1;
+    case RowBound::kCutFriction:
+      return 3;
+  }
+  return 0;
+}
+
+/// Lines of a row: G, target, step > 0 (relaxation / d), compliance if soft, relaxation if relaxed,
+/// bounds.
+constexpr int RowLines(PairForm form, const RowShape& row) {
+  return JacobianLines(form) + 2 + (row.soft ? 1 : 0) + (row.relaxed ? 1 : 0) +
+         BoundLines(row.bound);
+}
+
+/// 16 pairs that share no body. Lines of unused lanes may hold anything.
+struct PairBlock {
+  std::int32_t a[kLanes];  ///< Slots of the bodies; unused lanes: 0, which holds zeros.
+  std::int32_t b[kLanes];  ///< Likewise; all 0 for kSingle.
+  const RowShape* rows;
+  std::int32_t row_count;
+  std::int32_t lanes;  ///< In use: the first ones.
+  std::uint32_t data;  ///< First line of the block in PairWork::data.
+  std::uint32_t x;     ///< Its first line in PairWork::x, one for each row.
+  PairForm form;
+};
+
+/// How far the rows of a lane were from their laws; see Residual.
+struct BlockError {
+  Line max;          ///< [m/s]
+  Line max_angular;  ///< [rad/s]
+  Line energy;       ///< Sum of e_i^2 / d_i [J].
+};
+
+}  // namespace cairn::simd

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: MIT
+#include "pair_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace cairn::simd::test {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Lines of no block before and behind those of the blocks: offsets that are not 0, and something to
+// hit for a kernel that goes too far.
+constexpr int kMargin = 3;
+
+bool IsFriction(RowBound bound) {
+  return bound == RowBound::kFriction || bound == RowBound::kCutFriction;
+}
+
+void SetLane(Line* lines, int count, int lane, float value) {
+  for (int i = 0; i < count; ++i) lines[i].lane[lane] = value;
+}
+
+int DataLines(const BlockSpec& spec) {
+  int lines = PairLines(spec.form);
+  for (const RowShape& row : spec.rows) lines += RowLines(spec.form, row);
+  return lines;
+}
+
+void ShuffleBodies(Random* random, PairScene* scene) {
+  std::vector<std::int32_t> slots(scene->bodies.size() - 1);
+  for (PairBlock& block : scene->blocks) {
+    std::iota(slots.begin(), slots.end(), 1);
+    for (std::size_t i = slots.size() - 1; i > 0; --i) {
+      std::swap(slots[i], slots[random->Index(static_cast<int>(i) + 1)]);
+    }
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      block.a[lane] = slots[2 * lane];
+      block.b[lane] = block.form == PairForm::kSingle ? 0 : slots[2 * lane + 1];
+    }
+  }
+}
+
+std::vector<char> NamedBodies(const PairScene& scene) {
+  std::vector<char> named(scene.bodies.size(), 0);
+  named[0] = 1;
+  for (const PairBlock& block : scene.blocks) {
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      named[block.a[lane]] = named[block.b[lane]] = 1;
+    }
+  }
+  return named;
+}
+
+void FillBodies(float unused, Random* random, PairScene* scene) {
+  const std::vector<char> named = NamedBodies(*scene);
+  for (std::size_t i = 1; i < named.size(); ++i) {
+    for (int k = 0; k < 8; ++k) {
+      const float number = k % 4 == 3 ? 0 : random->Uniform(-1, 1);
+      scene->bodies[i].u[k] = named[i] ? number : unused;
+    }
+  }
+}
+
+void FillBounds(RowBound bound, int lane, Random* random, Line* lines) {
+  if (IsFriction(bound)) (lines++)->lane[lane] = random->Uniform(0, 1);
+  if (bound != RowBound::kOwn && bound != RowBound::kCutFriction) return;
+  const float lo = random->Uniform(-1, 0.2f), width = random->Uniform(0, 1);
+  const int kind = random->Index(6);  // 0, 1: without an end; 2: without any width
+  lines[0].lane[lane] = kind == 0 ? -kInfinity : lo;
+  lines[1].lane[lane] = kind == 1 ? kInfinity : kind == 2 ? lo : lo + width;
+}
+
+void FillRow(int block, int index, int lane, Random* random, PairScene* scene) {
+  const PairForm form = scene->blocks[block].form;
+  const RowShape& row = scene->shapes[block][index];
+  const RowView view = scene->View(block, index);
+
+  // lines of three numbers in the order of PairForm; a row that only turns has no linear ones
+  float d = 0;
+  for (int i = 0; i < JacobianLines(form); ++i) {
+    const bool linear = i / 3 == 0 || (form == PairForm::kJoint && i / 3 == 2);
+    const float g = row.angular && linear ? 0 : random->Signed();
+    view.g[i].lane[lane] = g;
+    const bool shared = form == PairForm::kContact && linear;
+    const float s_a = shared ? scene->PairOf(block)[0].lane[lane] : 1;
+    const float s_b = shared ? scene->PairOf(block)[1].lane[lane] : 0;
+    d += (s_a * s_a + s_b * s_b) * g * g;
+  }
+  if (row.soft) {
+    const float compliance = random->Uniform(0, 1);
+    view.compliance->lane[lane] = compliance;
+    d += compliance;
+  }
+  view.target->lane[lane] = random->Uniform(-1, 1);
+  float relaxation = 1;
+  if (row.relaxed) relaxation = view.relaxation->lane[lane] = random->Uniform(0.5f, 1.5f);
+  view.step->lane[lane] = relaxation / d;
+  if (view.bounds) FillBounds(row.bound, lane, random, view.bounds);
+  const float x = random->Uniform(-0.5f, 1);
+  scene->X(block, index, lane) = random->Index(3) ? x : 0;
+}
+
+testing::AssertionResult SameFloats(const float* a, const float* b, int count) {
+  if (std::memcmp(a, b, count * sizeof(float)) == 0) return testing::AssertionSuccess();
+  testing::AssertionResult failure = testing::AssertionFailure();
+  for (int i = 0; i < count; ++i) {
+    if (std::memcmp(a + i, b + i, sizeof(float)) != 0) {
+      failure << "\n  [" << i << "] " << a[i] << " and " << b[i];
+    }
+  }
+  return failure;
+}
+
+}  // namespace
+
+void PairScene::Run(PairKernels::Kernel kernel) {
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].rows = shapes[i].data();
+  PairWork work;
+  work.blocks = blocks.data();
+  work.count = static_cast<int>(blocks.size());
+  work.data = data.data();
+  work.x = x.data();
+  work.bodies = bodies.data();
+  work.errors = errors.data();
+  work.sweep = sweep;
+  work.hold_lifted = hold_lifted;
+  kernel(work);
+}
+
+RowView PairScene::View(int block, int row) {
+  const PairForm form = blocks[block].form;
+  const std::vector<RowShape>& rows = shapes[block];
+  Line* line = PairOf(block) + PairLines(form);
+  for (int i = 0; i < row; ++i) line += RowLines(form, rows[i]);
+
+  RowView view = {line, nullptr, nullptr, nullptr, nullptr, nullptr};
+  line += JacobianLines(form);
+  view.target = line++;
+  view.step = line++;
+  if (rows[row].soft) view.compliance = line++;
+  if (rows[row].relaxed) view.relaxation = line++;
+  if (BoundLines(rows[row].bound) > 0) view.bounds = line;
+  return view;
+}
+
+PairScene ZeroScene(const SceneSpec& spec) {
+  PairScene scene;
+  std::uint32_t data = kMargin, x = kMargin;
+  for (const BlockSpec& from : spec.blocks) {
+    PairBlock block = {};
+    for (int lane = 0; lane < from.lanes; ++lane) {
+      block.a[lane] = 2 * lane + 1;
+      block.b[lane] = from.form == PairForm::kSingle ? 0 : 2 * lane + 2;
+    }
+    block.row_count = static_cast<std::int32_t>(from.rows.size());
+    block.lanes = from.lanes;
+    block.data = data;
+    block.x = x;
+    block.form = from.form;
+    scene.blocks.push_back(block);
+    scene.shapes.push_back(from.rows);
+    data += DataLines(from);
+    x += block.row_count;
+  }
+
+  Line filler;
+  std::fill(filler.lane, filler.lane + kLanes, spec.unused);
+  scene.data.assign(data + kMargin, filler);
+  scene.x.assign(x + kMargin, filler);
+  for (const PairBlock& block : scene.blocks) {
+    const BlockSpec& from = spec.blocks[&block - scene.blocks.data()];
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      SetLane(&scene.data[block.data], DataLines(from), lane, 0);
+      SetLane(&scene.x[block.x], block.row_count, lane, 0);
+    }
+  }
+  scene.bodies.assign(spec.bodies + 1, BodyLane{});
+  // what no pass leaves behind: errors count as never negative
+  BlockError error;
+  for (Line* line : {&error.max, &error.max_angular, &error.energy}) {
+    std::fill(line->lane, line->lane + kLanes, -1.0f);
+  }
+  scene.errors.assign(scene.blocks.size(), error);
+  return scene;
+}
+
+PairScene RandomScene(const SceneSpec& spec) {
+  PairScene scene = ZeroScene(spec);
+  Random random(spec.seed);
+  ShuffleBodies(&random, &scene);
+  FillBodies(spec.unused, &random, &scene);
+  for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+    const int block = static_cast<int>(i);
+    for (int lane = 0; lane < scene.blocks[i].lanes; ++lane) {
+      if (scene.blocks[i].form == PairForm::kContact) {
+        scene.PairOf(block)[0].lane[lane] = random.Uniform(0.3f, 1.5f);
+        scene.PairOf(block)[1].lane[lane] = random.Uniform(0.3f, 1.5f);
+      }
+      for (int row = 0; row < scene.blocks[i].row_count; ++row) {
+        FillRow(block, row, lane, &random, &scene);
+      }
+    }
+  }
+  return scene;
+}
+
+std::vector<RowShape> Manifold(const ManifoldSpec& spec) {
+  std::vector<RowShape> rows;
+  for (int point = 0; point < spec.points; ++point) {
+    rows.push_back({.bound = RowBound::kPush, .relaxed = spec.relaxed});
+  }
+  for (int point = 0; point < spec.points; ++point) {
+    for (int i = 0; i < spec.friction_rows + spec.rolling_rows; ++i) {
+      rows.push_back({.bound = RowBound::kFriction,
+                      .relaxed = spec.relaxed,
+                      .angular = i >= spec.friction_rows,
+                      .parent = static_cast<std::int16_t>(point)});
+    }
+  }
+  return rows;
+}
+
+std::vector<RowShape> RandomRows(int most, Random* random) {
+  constexpr RowBound kBounds[] = {RowBound::kFree, RowBound::kPush, RowBound::kOwn,
+                                  RowBound::kFriction, RowBound::kCutFriction};
+  std::vector<RowShape> rows(1 + random->Index(most));
+  int first_friction = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    RowShape& row = rows[i];
+    row.bound = kBounds[random->Index(i == 0 ? 3 : 5)];
+    row.soft = random->Index(3) == 0;
+    row.angular = random->Index(3) == 0;
+    row.relaxed = random->Index(3) == 0;
+    if (random->Index(4) == 0) row.max_sweeps = 1 + random->Index(3);
+    if (IsFriction(row.bound)) {
+      row.parent = static_cast<std::int16_t>(random->Index(first_friction));
+    } else if (first_friction == static_cast<int>(i)) {
+      ++first_friction;
+    }
+  }
+  return rows;
+}
+
+SceneSpec RandomSpec(unsigned seed) {
+  constexpr PairForm kForms[] = {PairForm::kJoint, PairForm::kContact, PairForm::kSingle};
+  Random random(seed);
+  SceneSpec spec;
+  spec.seed = seed;
+  spec.bodies = 2 * kLanes + random.Index(30);
+  spec.blocks.resize(1 + random.Index(6));
+  for (BlockSpec& block : spec.blocks) {
+    block.form = kForms[random.Index(3)];
+    block.rows = RandomRows(20, &random);
+    block.lanes = 1 + random.Index(kLanes);
+  }
+  return spec;
+}
+
+testing::AssertionResult SameBits(const PairScene& a, const PairScene& b) {
+  for (std::size_t i = 0; i < a.blocks.size(); ++i) {
+    const PairBlock& block = a.blocks[i];
+    for (int row = 0; row < block.row_count; ++row) {
+      const testing::AssertionResult same =
+          SameFloats(a.x[block.x + row].lane, b.x[block.x + row].lane, block.lanes);
+      if (!same)
+        return testing::AssertionFailure()
+               << "x of block " << i << " row " << row << same.message();
+    }
+    const Line BlockError::*const kParts[] = {&BlockError::max, &BlockError::max_angular,
+                                              &BlockError::energy};
+    for (const auto part : kParts) {
+      const testing::AssertionResult same =
+          SameFloats((a.errors[i].*part).lane, (b.errors[i].*part).lane, block.lanes);
+      if (!same) return testing::AssertionFailure() << "errors of block " << i << same.message();
+    }
+  }
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    const testing::AssertionResult same = SameFloats(a.bodies[i].u, b.bodies[i].u, 8);
+    if (!same) return testing::AssertionFailure() << "body " << i << same.message();
+  }
+  return testing::AssertionSuccess();
+}
+
+testing::AssertionResult IsFinite(const PairScene& scene) {
+  for (const PairBlock& block : scene.blocks) {
+    for (int row = 0; row < block.row_count; ++row) {
+      for (int lane = 0; lane < block.lanes; ++lane) {
+        if (std::isfinite(scene.x[block.x + row].lane[lane])) continue;
+        return testing::AssertionFailure() << "row " << row << " lane " << lane;
+      }
+    }
+  }
+  for (const BodyLane& body : scene.bodies) {
+    if (!std::all_of(body.u, body.u + 8, [](float u) { return std::isfinite(u); })) {
+      return testing::AssertionFailure() << "body " << &body - scene.bodies.data();
+    }
+  }
+  return testing::AssertionSuccess();
+}
+
+}  // namespace cairn::simd::test
