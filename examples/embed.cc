@@ -35,7 +35,7 @@ int main() {
   if (!report.ok()) return 1;
 
   const Eigen::Vector3d& v = velocities[0].linear;
-  std::printf("impulses %.3f and %.3f N s, velocity %.3f %.3f m/s, residual %.0e m/s\n",
-              impulses[0], impulses[1], v.x(), v.y(), report.residual_max);
+  std::printf("impulses %.3f and %.3f N s, rolls at %.3f m/s, residual %.0e m/s\n", impulses[0],
+              impulses[1], v.x(), report.residual_max);
 }
 // [/readme]

@@ -133,8 +133,8 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
     settings.budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
   }
   impl_->solver.settings() = settings;
-  impl_->report =
-      impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities());
+  impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities(),
+                      &impl_->report);
   if (!impl_->report.ok()) {
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,

@@ -29,8 +29,7 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   Begin();
   while (Active()) Leg();
   meter_->Begin();
-  sweeps.EndCharges();
-  RestoreBest();
+  Finish();
   FillReport(report);
 }
 
@@ -39,11 +38,16 @@ void BlockCycle::Begin() {
   made_.assign(plan.groups().size(), {.active = true});
   chosen_.assign(plan.groups().size(), {});
   IslandState fresh;
-  fresh.best_energy = kInfinity;
+  fresh.best.energy = kInfinity;
   states_.assign(plan.islands().size(), fresh);
   islands_.assign(plan.islands().size(), {});
   stepped_islands_.clear();
+  stopped_.clear();
+  stopped_.reserve(islands_.size());
   legs_ = 0;
+  if (after_.size() < islands_.size()) after_.resize(islands_.size());
+  done_.Reserve(frame_->blocks());
+  if (meter_->limited()) best_.Reserve(frame_->blocks());
   if (settings_->max_sweeps > 0) return;
   for (size_t i = 0; i < islands_.size(); ++i) {
     islands_[i].stop = StopReason::kSweepLimit;
@@ -63,16 +67,23 @@ int BlockCycle::SweepsMade() const {
 }
 
 void BlockCycle::Stop(int island, StopReason reason) {
-  const Plan& plan = frame_->plan();
-  const int g = plan.islands()[island].group;
   islands_[island].stop = reason;
-  islands_[island].sweeps = made_[g].sweeps;
+  islands_[island].sweeps = made_[frame_->plan().islands()[island].group].sweeps;
+  stopped_.push_back(island);
+}
 
-  // the lanes go on while another island of the group does
-  const Group& group = plan.groups()[g];
-  const auto others = plan.islands_of_groups().subspan(group.first_island, group.islands);
-  made_[g].active = !std::all_of(others.begin(), others.end(), [this](int i) { return Done(i); });
-  if (made_[g].active) done_.Take(plan, island, frame_->blocks());
+void BlockCycle::CloseGroups() {
+  const Plan& plan = frame_->plan();
+  for (int island : stopped_) {
+    // the lanes go on while another island of the group does
+    const int g = plan.islands()[island].group;
+    const Group& group = plan.groups()[g];
+    const auto others = plan.islands_of_groups().subspan(group.first_island, group.islands);
+    made_[g].active = made_[g].active &&
+                      !std::all_of(others.begin(), others.end(), [&](int i) { return Done(i); });
+    if (made_[g].active) done_.Take(plan, island, frame_->blocks());
+  }
+  stopped_.clear();
 }
 
 void BlockCycle::ChooseNone() {
@@ -80,8 +91,12 @@ void BlockCycle::ChooseNone() {
 }
 
 void BlockCycle::MeasureChosen(std::vector<Residual>* residuals) {
-  if (residuals->size() < islands_.size()) residuals->resize(islands_.size());
   sweeps_->Measure(chosen_);
+  ReadErrors(residuals);
+}
+
+void BlockCycle::ReadErrors(std::vector<Residual>* residuals) const {
+  if (residuals->size() < islands_.size()) residuals->resize(islands_.size());
   for (size_t g = 0; g < chosen_.size(); ++g) {
     if (chosen_[g].active) sweeps_->ErrorsOfIslands(frame_->plan().groups()[g], *residuals);
   }
@@ -104,7 +119,6 @@ void BlockCycle::Leg() {
 
 void BlockCycle::See(std::span<const GroupSweeps> groups) {
   const Plan& plan = frame_->plan();
-  if (after_.size() < islands_.size()) after_.resize(islands_.size());
   for (size_t g = 0; g < groups.size(); ++g) {
     if (groups[g].active) sweeps_->ErrorsOfIslands(plan.groups()[g], after_);
   }
@@ -129,6 +143,7 @@ void BlockCycle::Judge(bool seen) {
       Stop(i, StopReason::kSweepLimit);
     }
   }
+  CloseGroups();
 }
 
 void BlockCycle::JudgeNear() {
@@ -151,54 +166,44 @@ void BlockCycle::JudgeNear() {
 }
 
 void BlockCycle::KeepBest() {
-  // after 1, 2, 4, 8 ... legs: copies cost little, and the last one is never far behind
-  if (!std::has_single_bit(static_cast<unsigned>(legs_))) return;
+  // after 1, 2, 4, 8 ... legs: that costs little, and the last one is never far behind
+  if (!meter_->limited() || !std::has_single_bit(static_cast<unsigned>(legs_))) return;
+  ChooseNone();
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    IslandState& state = states_[i];
-    if (Done(i) || state.seen.energy >= state.best_energy) continue;
+    if (!Done(i)) Choose(i);
+  }
+  if (!Active()) return;
+  sweeps_->MeasureFree(chosen_);
+  ReadErrors(&after_);
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (Done(i) || after_[i].energy >= states_[i].best.energy) continue;
     best_.Take(frame_->plan(), i, frame_->blocks());
-    state.best_energy = state.seen.energy;
+    states_[i].best = after_[i];
   }
 }
 
-void BlockCycle::RestoreBest() {
+void BlockCycle::Finish() {
   const Plan& plan = frame_->plan();
   BlockData* const blocks = &frame_->blocks();
   // islands that were done before others of their group
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (islands_[i].sweeps < made_[plan.islands()[i].group].sweeps) done_.Restore(plan, i, blocks);
   }
+  for (GroupSweeps& group : chosen_) group.active = true;
+  sweeps_->MeasureFree(chosen_);
+  ReadErrors(&after_);
 
-  // sweeps may also make it worse, where friction bounds move: then the state of the snapshot
-  const auto doubtful = [this](int i) {
-    return states_[i].seen.energy > states_[i].best_energy &&
-           islands_[i].stop != StopReason::kConverged;
-  };
-  ChooseNone();
-  bool any = false;
+  // sweeps may also make it worse, where friction bounds move: then the best state there was
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!doubtful(i)) continue;
-    Choose(i);
-    any = true;
-  }
-  if (!any) return;
-  MeasureChosen(&before_);
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!doubtful(i)) continue;
-    after_steps_.Take(plan, i, *blocks);
+    const bool better = states_[i].best.energy < after_[i].energy;
+    if (!better || islands_[i].stop == StopReason::kConverged) continue;
     best_.Restore(plan, i, blocks);
-  }
-  MeasureChosen(&after_);
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    const bool better = doubtful(i) && after_[i].energy < before_[i].energy;
-    if (doubtful(i) && !better) after_steps_.Restore(plan, i, blocks);
+    after_[i] = states_[i].best;
   }
 }
 
-void BlockCycle::FillReport(Report* report) {
+void BlockCycle::FillReport(Report* report) const {
   const Plan& plan = frame_->plan();
-  for (GroupSweeps& group : chosen_) group.active = true;
-  MeasureChosen(&after_);
   report->islands.resize(islands_.size());
   for (size_t i = 0; i < islands_.size(); ++i) {
     IslandReport& island = report->islands[i] = islands_[i];

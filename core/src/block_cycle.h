@@ -36,7 +36,7 @@ class BlockCycle {
   struct IslandState {
     Residual seen;            ///< by the last measured sweep
     Residual seen_with_step;  ///< the same, while sweeps alone are tried
-    double best_energy = 0;   ///< seen when the snapshot was taken, infinite if there is none
+    Residual best;            ///< of the snapshot; its energy is infinite if there is none
     bool stepped = false;     ///< a step was taken before this leg, and is not judged yet
     bool rests = false;       ///< one was judged after this leg: the next leg is one of sweeps
     bool better_alone = false;
@@ -49,20 +49,24 @@ class BlockCycle {
   void Judge(bool seen);
   void JudgeNear();
   void Stop(int island, StopReason reason);
+  /// Keeps the state of islands that have stopped, where their lanes go on.
+  void CloseGroups();
   bool Done(int island) const { return islands_[island].stop != StopReason::kNotStarted; }
   /// Neither done, nor to be compared with itself first.
   bool Open(int island) const { return !Done(island) && !states_[island].stepped; }
   bool Active() const;
   int SweepsMade() const;
   void KeepBest();
-  void RestoreBest();
+  /// The best states, and their residuals.
+  void Finish();
   /// Whether each island belongs to a group that the next measurement is for.
   bool Chosen(int island) const { return chosen_[frame_->plan().islands()[island].group].active; }
   void Choose(int island) { chosen_[frame_->plan().islands()[island].group].active = true; }
   void ChooseNone();
   /// Residuals of the islands of the groups that are chosen.
   void MeasureChosen(std::vector<Residual>* residuals);
-  void FillReport(Report* report);
+  void ReadErrors(std::vector<Residual>* residuals) const;
+  void FillReport(Report* report) const;
 
   // block_cycle_steps.cc
   void TakeSteps();
@@ -79,7 +83,7 @@ class BlockCycle {
   std::vector<GroupSweeps> made_, chosen_;
   std::vector<IslandState> states_;
   std::vector<IslandReport> islands_;
-  std::vector<int> stepped_islands_;
+  std::vector<int> stepped_islands_, stopped_;
   std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
   BlockSnapshot done_, best_, before_steps_, after_steps_;
   int legs_ = 0;

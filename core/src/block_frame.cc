@@ -5,8 +5,6 @@
 #include <atomic>
 #include <cstring>
 
-#include "validate.h"
-
 namespace cairn {
 namespace {
 
@@ -63,7 +61,7 @@ class WorstResult {
     const int now = static_cast<int>(result);
     while (now > worst && !worst_.compare_exchange_weak(worst, now)) continue;
   }
-  PackResult get() const { return static_cast<PackResult>(worst_.load()); }
+  PackResult get() const { return static_cast<PackResult>(worst_.load(std::memory_order_relaxed)); }
 
  private:
   std::atomic<int> worst_{static_cast<int>(PackResult::kDone)};
@@ -94,16 +92,14 @@ PackResult BlockFrame::Begin(const ContactProblem& problem, double omega,
                      movable_now_ == movable_;
   if (alike) result = Pack(problem, impulses, crew);
   if (result == PackResult::kChanged) {
-    planned_ = false;
-    if (!Validate(problem, impulses).ok()) return PackResult::kChanged;
     movable_.swap(movable_now_);
     omega_ = omega;
     planned_rows_ = problem.rows.size();
-    plan_.Make(problem, movable_, omega);
     ++plan_number_;
+    planned_ = plan_.Make(problem, impulses, movable_, omega);
+    if (!planned_) return PackResult::kChanged;
     PackerOf(problem).Reserve(&blocks_);
     if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
-    planned_ = true;
     result = Pack(problem, impulses, crew);
   }
   if (result == PackResult::kDone) Start(crew);
@@ -116,7 +112,7 @@ bool BlockFrame::WhitenBodies(std::span<const Body> bodies, Crew* crew) {
   std::atomic<bool> valid{true};
   InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) {
-      movable_now_[i] = CanMove(bodies[i]);
+      movable_now_[i] = MobilityOf(bodies[i]);
       if (!Whiten(bodies[i], &bodies_[i])) valid.store(false, std::memory_order_relaxed);
     }
   });
@@ -129,7 +125,8 @@ PackResult BlockFrame::Pack(const ContactProblem& problem, std::span<const doubl
   WorstResult worst;
   const auto pack = [&](int unit) {
     const Unit& of = plan_.units()[unit];
-    worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
+    if (worst.get() == PackResult::kDone)
+      worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
   };
   Parts parts(static_cast<int>(plan_.units().size()), pack);
   crew->Run(&parts);

@@ -2,6 +2,7 @@
 #include "block_pack.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -15,8 +16,10 @@ using simd::PairForm;
 using simd::RowBound;
 using simd::RowShape;
 
-/// Impulses beyond this are left to double precision.
+/// Impulses and friction coefficients beyond this are left to double precision.
 constexpr double kMost = 1e18;
+
+const WhitenedBody kNoBody;
 
 /// J of what is not there.
 constexpr double kNothing[6] = {};
@@ -30,7 +33,7 @@ bool Joins(const Row& row, const Pair& pair, const MovableBodies& movable) {
   const auto is = [&movable](int body, int planned) {
     if (planned != kWorld) return body == planned;
     return body == kWorld ||
-           (body >= 0 && body < static_cast<int>(movable.size()) && movable[body] == 0);
+           (body >= 0 && body < static_cast<int>(movable.size()) && movable[body] == kUnmoved);
   };
   const bool same = row.body_a != row.body_b || row.body_a == kWorld;
   return same && ((is(row.body_a, pair.a) && is(row.body_b, pair.b)) ||
@@ -40,8 +43,8 @@ bool Joins(const Row& row, const Pair& pair, const MovableBodies& movable) {
 /// Its numbers may be used, apart from what its Jacobian and target show.
 bool HasValidLaw(const Row& row) {
   return row.compliance >= 0 && row.relaxation > 0 && row.relaxation < 2 && row.friction >= 0 &&
-         row.lo <= row.hi && row.lo < kInfinity && row.hi > -kInfinity &&
-         (row.parent == kNoRow || (row.lo <= 0 && row.hi >= 0));
+         row.friction < kInfinity && row.lo <= row.hi && row.lo < kInfinity &&
+         row.hi > -kInfinity && (row.parent == kNoRow || (row.lo <= 0 && row.hi >= 0));
 }
 
 float Bound(double value) {
@@ -51,22 +54,31 @@ float Bound(double value) {
   return static_cast<float>(value);
 }
 
-/// @p b: the bounds of the row as the kernel has them.
-float Clamp(RowBound bound, const float* b, float parent, float x) {
+/// x inside its bounds, all lanes; @p b: the bounds of the row as the kernel has them.
+void Clamp(RowBound bound, const Line* b, const Line* parent, Line* x) {
+  const auto clamp = [x](const auto& lo, const auto& hi) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      x->lane[lane] = std::min(std::max(x->lane[lane], lo(lane)), hi(lane));
+    }
+  };
+  const auto most = [b, parent](int lane) {
+    return b[0].lane[lane] * std::max(parent->lane[lane], 0.0f);
+  };
   switch (bound) {
     case RowBound::kFree:
-      return x;
+      return;
     case RowBound::kPush:
-      return std::max(x, 0.0f);
+      for (float& number : x->lane) number = std::max(number, 0.0f);
+      return;
     case RowBound::kOwn:
-      return std::min(std::max(x, b[0]), b[1]);
+      return clamp([b](int lane) { return b[0].lane[lane]; },
+                   [b](int lane) { return b[1].lane[lane]; });
     case RowBound::kFriction:
+      return clamp([&](int lane) { return -most(lane); }, most);
     case RowBound::kCutFriction:
-      break;
+      return clamp([&](int lane) { return std::max(-most(lane), b[1].lane[lane]); },
+                   [&](int lane) { return std::min(most(lane), b[2].lane[lane]); });
   }
-  const float most = b[0] * std::max(parent, 0.0f);
-  if (bound == RowBound::kFriction) return std::min(std::max(x, -most), most);
-  return std::min(std::max(x, std::max(-most, b[1])), std::min(most, b[2]));
 }
 
 void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
@@ -81,7 +93,49 @@ void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
 void Prefetch(const Row& row) {
   const char* const bytes = reinterpret_cast<const char*>(&row);
   for (size_t at = 0; at < sizeof(Row); at += 64) __builtin_prefetch(bytes + at);
+  __builtin_prefetch(bytes + sizeof(Row) - 1);  // may be on a line of its own
 }
+
+std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+/// The law that most rows have, compared by its bits: checking every field of every row for itself
+/// costs more than packing them.
+class UsualLaw {
+ public:
+  UsualLaw(PairForm form, const RowShape& shape, double omega)
+      : exists_(!shape.soft && !shape.relaxed && omega == 1 && shape.bound != RowBound::kOwn &&
+                shape.bound != RowBound::kCutFriction),
+        opposite_(form == PairForm::kContact),
+        angular_(shape.angular),
+        lo_(Bits(shape.bound == RowBound::kPush ? 0 : -kInfinity)),
+        max_sweeps_(shape.max_sweeps) {}
+
+  bool exists() const { return exists_; }
+  /// The row has it, and acts between these bodies. False says nothing.
+  bool Fits(const Row& row, const Pair& pair, int parent) const {
+    const int integers = (row.body_a ^ pair.row_a) | (row.body_b ^ pair.row_b) |
+                         (row.parent ^ parent) | (row.max_sweeps ^ max_sweeps_);
+    const std::uint64_t law = (Bits(row.lo) ^ lo_) | (Bits(row.hi) ^ Bits(kInfinity)) |
+                              (Bits(row.relaxation) ^ Bits(1)) | Bits(row.compliance);
+    const bool same = (static_cast<std::uint32_t>(integers) | law) == 0;
+    // negative numbers and those that are not finite have larger bits
+    return exists_ && same && Bits(row.friction) < Bits(kInfinity) && HasLinearPart(row);
+  }
+
+ private:
+  bool HasLinearPart(const Row& row) const {
+    const Eigen::Vector3d &a = row.linear_a, &b = row.linear_b;
+    const std::uint64_t any = Bits(a[0]) | Bits(a[1]) | Bits(a[2]);
+    if (angular_) return ((any | Bits(b[0]) | Bits(b[1]) | Bits(b[2])) << 1) == 0;
+    const std::uint64_t sum =
+        (Bits(a[0]) ^ Bits(-b[0])) | (Bits(a[1]) ^ Bits(-b[1])) | (Bits(a[2]) ^ Bits(-b[2]));
+    return (any << 1) != 0 && (!opposite_ || sum == 0);
+  }
+
+  bool exists_, opposite_, angular_;
+  std::uint64_t lo_;
+  int max_sweeps_;
+};
 
 /// Fills one block, row by row.
 class OneBlock {
@@ -90,13 +144,11 @@ class OneBlock {
       : packer_(packer),
         block_(packer.plan.blocks()[index]),
         line_(blocks->data.data() + block_.data),
-        x_(blocks->x.data() + block_.x),
-        a_{},
-        b_{} {
+        x_(blocks->x.data() + block_.x) {
     for (int lane = 0; lane < kLanes; ++lane) {
       source_.a[lane] = source_.b[lane] = kNothing;
       source_.target.lane[lane] = source_.compliance.lane[lane] = 0;
-      source_.relaxation.lane[lane] = 1;
+      source_.relaxation.lane[lane] = unit_.lane[lane] = 1;
       if (lane < block_.lanes) pairs_[lane] = &packer.plan.pair(index, lane);
     }
   }
@@ -122,8 +174,12 @@ class OneBlock {
       const Pair& pair = *pairs_[lane];
       rows_[lane] = packer_.plan.rows_of(pair).data();
       Prefetch(packer_.problem.rows[rows_[lane][0]]);
-      if (pair.a != kWorld) Put(packer_.bodies[pair.a], lane, &a_);
-      if (pair.b != kWorld) Put(packer_.bodies[pair.b], lane, &b_);
+      Put(pair.a != kWorld ? packer_.bodies[pair.a] : kNoBody, lane, &a_);
+      if (block_.form != PairForm::kSingle) Put(packer_.bodies[pair.b], lane, &b_);
+    }
+    for (int lane = block_.lanes; lane < kLanes; ++lane) {
+      Put(kNoBody, lane, &a_);
+      Put(kNoBody, lane, &b_);
     }
     if (block_.form != PairForm::kContact) return;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -135,30 +191,53 @@ class OneBlock {
 
   /// Row @p i of every lane; false if one is not as planned.
   bool ReadRows(int i, const RowShape& shape) {
+    const UsualLaw usual(block_.form, shape, packer_.omega);
+    const bool last = i + 1 == block_.row_count;
     bool as_planned = true;
     for (int lane = 0; lane < block_.lanes; ++lane) {
       const Row& row = packer_.problem.rows[rows_[lane][i]];
-      if (i + 1 < block_.row_count) Prefetch(packer_.problem.rows[rows_[lane][i + 1]]);
+      if (!last) Prefetch(packer_.problem.rows[rows_[lane][i + 1]]);
       const Pair& pair = *pairs_[lane];
       const int parent = shape.parent >= 0 ? rows_[lane][shape.parent] : kNoRow;
-      as_planned = as_planned && row.parent == parent && HasShape(row, packer_.omega, shape) &&
-                   Joins(row, pair, packer_.movable) && HasValidLaw(row) &&
-                   (block_.form != PairForm::kContact || ActsOpposite(row));
+      as_planned = as_planned && (usual.Fits(row, pair, parent) || Fits(row, pair, parent, shape));
 
       const bool straight = row.body_a == pair.a;
       source_.a[lane] = (straight ? row.linear_a : row.linear_b).data();
       source_.b[lane] = (straight ? row.linear_b : row.linear_a).data();
       source_.target.lane[lane] = row.target;
-      source_.compliance.lane[lane] = row.compliance;
-      source_.relaxation.lane[lane] = packer_.omega * row.relaxation;
       bounds_.friction.lane[lane] = row.friction;
-      bounds_.lo.lane[lane] = row.lo;
-      bounds_.hi.lane[lane] = row.hi;
     }
+    if (as_planned && !usual.exists()) ReadUnusual(i);
     return as_planned;
   }
 
+  bool Fits(const Row& row, const Pair& pair, int parent, const RowShape& shape) const {
+    return row.parent == parent && LikeParent(row) && HasShape(row, packer_.omega, shape) &&
+           Joins(row, pair, packer_.movable) && HasValidLaw(row) &&
+           (block_.form != PairForm::kContact || ActsOpposite(row));
+  }
+
+  /// It names the bodies that its parent names. @pre the parent is the one that was planned for
+  bool LikeParent(const Row& row) const {
+    if (row.parent == kNoRow) return true;
+    const Row& parent = packer_.problem.rows[row.parent];
+    return (row.body_a == parent.body_a && row.body_b == parent.body_b) ||
+           (row.body_a == parent.body_b && row.body_b == parent.body_a);
+  }
+
+  void ReadUnusual(int i) {
+    for (int lane = 0; lane < block_.lanes; ++lane) {
+      const Row& row = packer_.problem.rows[rows_[lane][i]];
+      source_.compliance.lane[lane] = row.compliance;
+      source_.relaxation.lane[lane] = packer_.omega * row.relaxation;
+      bounds_.lo.lane[lane] = row.lo;
+      bounds_.hi.lane[lane] = row.hi;
+    }
+    unusual_ = true;
+  }
+
   void PutLaw(const RowShape& shape) {
+    if (!unusual_) return;
     const auto put = [this](const simd::DoubleLine& from) {
       for (int lane = 0; lane < kLanes; ++lane) {
         line_->lane[lane] = static_cast<float>(from.lane[lane]);
@@ -167,26 +246,32 @@ class OneBlock {
     };
     if (shape.soft) put(source_.compliance);
     if (shape.relaxed) put(source_.relaxation);
+    // the next row is one without, unless it says so
+    source_.compliance = {};
+    source_.relaxation = unit_;
+    unusual_ = false;
   }
 
   PackResult PutImpulses(int i, const RowShape& shape, std::span<const double> impulses) {
-    const bool own = shape.bound == RowBound::kOwn || shape.bound == RowBound::kCutFriction;
-    for (int lane = 0; lane < block_.lanes; ++lane) {
-      float bounds[3] = {};
-      float* next = bounds;
-      if (shape.parent >= 0) *next++ = Bound(bounds_.friction.lane[lane]);
-      if (own) {
-        *next++ = Bound(bounds_.lo.lane[lane]);
-        *next++ = Bound(bounds_.hi.lane[lane]);
-      }
-      for (int k = 0; k < next - bounds; ++k) line_[k].lane[lane] = bounds[k];
-
-      const double x = impulses[rows_[lane][i]];
-      if (!(std::abs(x) <= kMost)) return PackResult::kOutOfRange;
-      const float parent = shape.parent >= 0 ? x_[shape.parent].lane[lane] : 0;
-      x_[i].lane[lane] = Clamp(shape.bound, bounds, parent, static_cast<float>(x));
+    Line* next = line_;
+    const auto put = [this, &next](const simd::DoubleLine& from) {
+      for (int lane = 0; lane < block_.lanes; ++lane) next->lane[lane] = Bound(from.lane[lane]);
+      ++next;
+    };
+    if (shape.parent >= 0) put(bounds_.friction);
+    if (shape.bound == RowBound::kOwn || shape.bound == RowBound::kCutFriction) {
+      put(bounds_.lo);
+      put(bounds_.hi);
     }
-    return PackResult::kDone;
+
+    bool in_range = true;
+    for (int lane = 0; lane < block_.lanes; ++lane) {
+      const double x = impulses[rows_[lane][i]];
+      in_range = in_range && std::abs(x) <= kMost && bounds_.friction.lane[lane] <= kMost;
+      x_[i].lane[lane] = static_cast<float>(x);
+    }
+    Clamp(shape.bound, line_, shape.parent >= 0 ? x_ + shape.parent : nullptr, x_ + i);
+    return in_range ? PackResult::kDone : PackResult::kOutOfRange;
   }
 
   const BlockPacker& packer_;
@@ -195,11 +280,13 @@ class OneBlock {
   Line* x_;
   const Pair* pairs_[kLanes] = {};
   const int* rows_[kLanes] = {};
-  simd::BodyLines a_, b_;
+  simd::BodyLines a_, b_;  ///< b_: unused for PairForm::kSingle
   simd::SourceRows source_;
   struct {
     simd::DoubleLine friction, lo, hi;
   } bounds_;
+  simd::DoubleLine unit_;
+  bool unusual_ = false;  ///< the row has more than the usual law
 };
 
 template <class T>

@@ -34,9 +34,13 @@ void Copy(const Plan& plan, int island, const Lines& x_from, const Bodies& bodie
 
 }  // namespace
 
-void BlockSnapshot::Take(const Plan& plan, int island, const BlockData& blocks) {
+void BlockSnapshot::Reserve(const BlockData& blocks) {
   if (x_.size() < blocks.x.size()) x_.resize(blocks.x.size());
   if (bodies_.size() < blocks.bodies.size()) bodies_.resize(blocks.bodies.size());
+}
+
+void BlockSnapshot::Take(const Plan& plan, int island, const BlockData& blocks) {
+  Reserve(blocks);
   Copy(plan, island, blocks.x, blocks.bodies, &x_, &bodies_);
 }
 

@@ -39,6 +39,8 @@ class BudgetMeter {
 
   /// No more work may be started.
   bool spent() const { return spent_; }
+  /// There is a budget.
+  bool limited() const { return budget_.kind() != Budget::Kind::kUnlimited; }
   /// Work units left, infinite unless the budget is of work.
   double work_left() const;
   /// Whether a step of @p step_units and sweeps of @p sweep_units after it are predicted to fit.

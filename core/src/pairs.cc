@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "islands.h"
+#include "validate.h"
+
 namespace cairn {
 namespace {
 
@@ -76,90 +79,112 @@ simd::RowShape ShapeOf(const Row& row, double omega) {
           .max_sweeps = row.max_sweeps};
 }
 
+namespace {
+
+simd::PairForm FormOf(const MovableBodies& movable, const Pair& pair) {
+  if (pair.b == kWorld) return simd::PairForm::kSingle;
+  const bool even = movable[pair.a] == kMovedEvenly && movable[pair.b] == kMovedEvenly;
+  return even ? simd::PairForm::kContact : simd::PairForm::kJoint;
+}
+
+}  // namespace
+
+Mobility MobilityOf(const Body& body) {
+  if (!CanMove(body)) return kUnmoved;
+  const bool even = body.inv_mass > 0 && body.linear_factor == Eigen::Vector3d::Ones();
+  return even ? kMovedEvenly : kMoved;
+}
+
 int PairFinder::Look(int a, int b, bool contact) {
   const size_t mask = table_.size() - 1;
   for (size_t at = Hash(a, b, contact) & mask;; at = (at + 1) & mask) {
     if (table_[at] == 0) {
-      pairs_->push_back({a, b, 0, 0, simd::PairForm::kJoint, contact, 0});
-      table_[at] = static_cast<int>(pairs_->size());
+      list_.pairs.push_back({a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0});
+      table_[at] = static_cast<int>(list_.pairs.size());
       return table_[at] - 1;
     }
-    const Pair& known = (*pairs_)[table_[at] - 1];
+    const Pair& known = list_.pairs[table_[at] - 1];
     if (Joins(known, a, b) && known.contact == contact) return table_[at] - 1;
   }
 }
 
 int PairFinder::PairOf(const Row& row, int index) {
   if (row.parent != kNoRow) return pair_of_row_[row.parent];
-  const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != 0; };
+  const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
   int a = moves(row.body_a) ? row.body_a : kWorld, b = moves(row.body_b) ? row.body_b : kWorld;
   if (a == kWorld) std::swap(a, b);
 
   // the neighbour's: limits of a joint only push, too, and follow its other rows
   const bool contact = BoundOf(row) == simd::RowBound::kPush;
   if (index > 0) {
-    const Pair& last = (*pairs_)[pair_of_row_[index - 1]];
+    const Pair& last = list_.pairs[pair_of_row_[index - 1]];
     if (Joins(last, a, b) && (!last.contact || contact)) return pair_of_row_[index - 1];
   }
   return Look(a, b, contact);
 }
 
-void PairFinder::Find(const ContactProblem& problem, const MovableBodies& movable, double omega,
-                      ShapeTable* shapes, PairList* list) {
+bool PairFinder::Find(const ContactProblem& problem, std::span<const double> impulses,
+                      const MovableBodies& movable, double omega, ShapeTable* shapes) {
   movable_ = &movable;
-  pairs_ = &list->pairs;
-  pairs_->clear();
+  list_.pairs.clear();
   const size_t rows = problem.rows.size();
   pair_of_row_.resize(rows);
   size_t capacity = 64;
   while (capacity < 2 * rows) capacity *= 2;
   table_.assign(capacity, 0);
 
+  // all that is wanted of a row, in one look at it: rows are large
+  row_shapes_.resize(rows);
+  parent_.resize(rows);
   for (size_t i = 0; i < rows; ++i) {
-    const int pair = pair_of_row_[i] = PairOf(problem.rows[i], static_cast<int>(i));
-    ++(*pairs_)[pair].rows;
+    if (ValidateRow(problem, static_cast<int>(i), impulses[i]) != Status::kOk) return false;
+    const Row& row = problem.rows[i];
+    const int index = pair_of_row_[i] = PairOf(row, static_cast<int>(i));
+    Pair& pair = list_.pairs[index];
+    if (pair.rows++ == 0) {
+      pair.row_a = row.body_a;
+      pair.row_b = row.body_b;
+      pair.form = FormOf(movable, pair);
+    }
+    if (pair.form == simd::PairForm::kContact && !ActsOpposite(row)) {
+      pair.form = simd::PairForm::kJoint;
+    }
+    row_shapes_[i] = ShapeOf(row, omega);
+    parent_[i] = row.parent;
   }
-  HandOutRows(rows, list);
-  FindShapes(problem, omega, shapes, list);
+  HandOutRows();
+  FindShapes(shapes);
+  return true;
 }
 
-void PairFinder::HandOutRows(size_t rows, PairList* list) {
+void PairFinder::HandOutRows() {
+  const size_t rows = pair_of_row_.size();
   int first = 0;
-  for (Pair& pair : list->pairs) {
+  for (Pair& pair : list_.pairs) {
     pair.first = first;
     first += std::exchange(pair.rows, 0);
   }
-  list->rows.resize(rows);
+  list_.rows.resize(rows);
   place_.resize(rows);
   for (size_t i = 0; i < rows; ++i) {
-    Pair& pair = list->pairs[pair_of_row_[i]];
+    Pair& pair = list_.pairs[pair_of_row_[i]];
     place_[i] = pair.rows++;
-    list->rows[pair.first + place_[i]] = static_cast<int>(i);
+    list_.rows[pair.first + place_[i]] = static_cast<int>(i);
   }
 }
 
-void PairFinder::FindShapes(const ContactProblem& problem, double omega, ShapeTable* shapes,
-                            PairList* list) {
+void PairFinder::FindShapes(ShapeTable* shapes) {
   // a caller that changes settings of single rows must not fill the memory with shapes
   constexpr int kMostShapes = 1024;
   if (shapes->size() > kMostShapes) shapes->Clear();
 
-  for (Pair& pair : list->pairs) {
+  for (Pair& pair : list_.pairs) {
     scratch_.clear();
-    bool opposite = true;
-    for (int index : list->rows_of(pair)) {
-      const Row& row = problem.rows[index];
-      simd::RowShape& shape = scratch_.emplace_back(ShapeOf(row, omega));
-      if (row.parent != kNoRow) shape.parent = static_cast<std::int16_t>(place_[row.parent]);
-      opposite = opposite && ActsOpposite(row);
+    for (int row : list_.rows_of(pair)) {
+      scratch_.push_back(row_shapes_[row]);
+      const int parent = parent_[row];
+      if (parent != kNoRow) scratch_.back().parent = static_cast<std::int16_t>(place_[parent]);
     }
-    const auto even = [&problem](int body) {
-      const Body& b = problem.bodies[body];
-      return b.inv_mass > 0 && b.linear_factor == Eigen::Vector3d::Ones();
-    };
-    pair.form = pair.b == kWorld                           ? simd::PairForm::kSingle
-                : opposite && even(pair.a) && even(pair.b) ? simd::PairForm::kContact
-                                                           : simd::PairForm::kJoint;
     pair.shape = shapes->Intern(scratch_);
   }
 }

@@ -13,8 +13,9 @@ namespace cairn {
 
 /// Bodies joined by rows: what one lane of a block holds.
 struct Pair {
-  int a, b;         ///< bodies of the problem; b is kWorld unless both can move
-  int first, rows;  ///< its part of PairList::rows
+  int a, b;          ///< bodies of the problem; b is kWorld unless both can move
+  int row_a, row_b;  ///< bodies of its first row
+  int first, rows;   ///< its part of PairList::rows
   simd::PairForm form;
   bool contact;  ///< begins with a row that only pushes: swept after joints
   int shape;     ///< of its rows, in ShapeTable
@@ -46,8 +47,14 @@ struct PairList {
   }
 };
 
-/// Whether a body can be moved by rows; see CanMove().
-using MovableBodies = std::vector<char>;
+/// How rows can move each body: what the plan knows of it.
+enum Mobility : char {
+  kUnmoved,  ///< Not at all; see CanMove().
+  kMoved,
+  kMovedEvenly,  ///< And pushed the same way in all directions.
+};
+using MovableBodies = std::vector<Mobility>;
+Mobility MobilityOf(const Body& body);
 
 /// The law of a row as a kernel sees it, without the parent. @p omega: Settings::omega of kPsor, or
 /// 1.
@@ -66,22 +73,26 @@ inline bool ActsOpposite(const Row& row) {
 /// friction row goes with its parent, other rows with earlier ones of the same bodies and kind.
 class PairFinder {
  public:
-  /// @pre the problem passed Validate(). Fills @p list, and @p shapes as far as new.
-  void Find(const ContactProblem& problem, const MovableBodies& movable, double omega,
-            ShapeTable* shapes, PairList* list);
+  /// Fills @p list, and @p shapes as far as new. False if a row is not valid, by ValidateRow().
+  /// @pre the bodies are valid
+  [[nodiscard]] bool Find(const ContactProblem& problem, std::span<const double> impulses,
+                          const MovableBodies& movable, double omega, ShapeTable* shapes);
+  const PairList& list() const { return list_; }
 
  private:
   int PairOf(const Row& row, int index);
   int Look(int a, int b, bool contact);
   void Grow();
-  void HandOutRows(size_t rows, PairList* list);
-  void FindShapes(const ContactProblem& problem, double omega, ShapeTable* shapes, PairList* list);
+  void HandOutRows();
+  void FindShapes(ShapeTable* shapes);
 
   const MovableBodies* movable_ = nullptr;
-  std::vector<Pair>* pairs_ = nullptr;
+  PairList list_;
   std::vector<int> pair_of_row_;
   std::vector<int> table_;  ///< open addressing: pair + 1, or 0
   std::vector<int> place_;  ///< problem row -> row of its pair
+  std::vector<int> parent_;
+  std::vector<simd::RowShape> row_shapes_;
   std::vector<simd::RowShape> scratch_;
 };
 

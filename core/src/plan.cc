@@ -16,8 +16,10 @@ constexpr int kGroupRows = 1536;
 constexpr int kUnitRows = 1024;
 /// The budget is looked at between stages: at most about 50 us of work each, on slow targets too.
 constexpr int kStageRows = 8192;
-/// Colours smaller than this are not worth waiting for each other: one thread takes several.
+/// Colours smaller than this are not worth waiting for each other: one thread takes several, up to
+/// so many rows.
 constexpr int kTinyColour = 512;
+constexpr int kTinyColoursRows = 2048;
 /// Blocks that a pair without a colour may still join.
 constexpr int kOpenBlocks = 8;
 
@@ -31,20 +33,22 @@ bool Shares(const simd::PairBlock& block, int a, int b) {
 
 }  // namespace
 
-void Plan::Make(const ContactProblem& problem, const MovableBodies& movable, double omega) {
-  pair_finder_.Find(problem, movable, omega, &shapes_, &list_);
-  colouring_.Update(problem.bodies, list_.pairs);
+bool Plan::Make(const ContactProblem& problem, std::span<const double> impulses,
+                const MovableBodies& movable, double omega) {
+  if (!pair_finder_.Find(problem, impulses, movable, omega, &shapes_)) return false;
+  colouring_.Update(problem.bodies, list().pairs);
   FindIslands(static_cast<int>(problem.bodies.size()));
   FindGroups();
   SortPairs();
   GiveSlots(problem.bodies.size());
   FillBlocks();
   FindStages();
+  return true;
 }
 
 void Plan::FindIslands(int bodies) {
   island_finder_.Start(bodies);
-  for (const Pair& pair : list_.pairs) island_finder_.Join(pair.a, pair.b);
+  for (const Pair& pair : list().pairs) island_finder_.Join(pair.a, pair.b);
   islands_.assign(island_finder_.Number(), {});
 
   const std::vector<int>& island_of = island_finder_.island_of_body();
@@ -55,10 +59,10 @@ void Plan::FindIslands(int bodies) {
     ++island.bodies;
   }
   // pairs that nothing can move for are an island of their own, the last
-  island_of_pair_.resize(list_.pairs.size());
+  island_of_pair_.resize(list().pairs.size());
   const int attached = static_cast<int>(islands_.size());
-  for (size_t i = 0; i < list_.pairs.size(); ++i) {
-    const Pair& pair = list_.pairs[i];
+  for (size_t i = 0; i < list().pairs.size(); ++i) {
+    const Pair& pair = list().pairs[i];
     const int island = pair.a == kWorld ? attached : island_of[pair.a];
     if (island == static_cast<int>(islands_.size())) islands_.emplace_back();
     islands_[island].rows += pair.rows;
@@ -106,11 +110,12 @@ void Plan::SortBy(int keys, const Key& key) {
 
 void Plan::SortPairs() {
   // by group, colour and shape; those that are alike stay in the order of the problem
-  order_.resize(list_.pairs.size());
+  order_.resize(list().pairs.size());
   for (size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
   constexpr int kForms = 3;
   const auto shape = [this](int i) {
-    return list_.pairs[i].shape * kForms + static_cast<int>(list_.pairs[i].form);
+    if (colouring_.colours()[i] == Colour::kOverflow) return 0;
+    return list().pairs[i].shape * kForms + static_cast<int>(list().pairs[i].form);
   };
   SortBy(shapes_.size() * kForms, shape);
   SortBy(Colour::kCount, [this](int i) { return colouring_.colours()[i]; });
@@ -133,7 +138,7 @@ void Plan::GiveSlots(size_t bodies) {
   body_of_slot_.assign(1, kWorld);
   for (Group& group : groups_) group.slots = 0;
   for (int i : order_) {
-    const Pair& pair = list_.pairs[i];
+    const Pair& pair = list().pairs[i];
     const int before = static_cast<int>(body_of_slot_.size());
     if (pair.a != kWorld) SlotOf(pair.a);
     if (pair.b != kWorld) SlotOf(pair.b);
@@ -145,7 +150,7 @@ void Plan::GiveSlots(size_t bodies) {
 }
 
 simd::PairBlock& Plan::AddBlock(int pair) {
-  const Pair& of = list_.pairs[pair];
+  const Pair& of = list().pairs[pair];
   simd::PairBlock& block = blocks_.emplace_back();
   block = {};
   block.rows = shapes_.rows(of.shape).data();
@@ -161,7 +166,7 @@ simd::PairBlock& Plan::AddBlock(int pair) {
 }
 
 void Plan::AddLane(int pair, simd::PairBlock* block) {
-  const Pair& of = list_.pairs[pair];
+  const Pair& of = list().pairs[pair];
   const int index = static_cast<int>(block - blocks_.data());
   pair_of_lane_[index * kLanes + block->lanes] = pair;
   block->a[block->lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
@@ -170,21 +175,31 @@ void Plan::AddLane(int pair, simd::PairBlock* block) {
 }
 
 void Plan::FillOverflow(size_t begin, size_t end) {
-  const size_t first_block = blocks_.size();
+  // island by island, each as if it were alone
+  const auto before = [this](int i, int j) {
+    return std::pair(island_of_pair_[i], i) < std::pair(island_of_pair_[j], j);
+  };
+  std::sort(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+            order_.begin() + static_cast<std::ptrdiff_t>(end), before);
+  int island = -1;
+  size_t first_block = blocks_.size();
   for (size_t i = begin; i < end; ++i) {
-    const Pair& pair = list_.pairs[order_[i]];
-    const int a = slot_of_body_[pair.a], b = pair.b == kWorld ? 0 : slot_of_body_[pair.b];
-    simd::PairBlock* fitting = nullptr;
-    const size_t oldest =
-        std::max(first_block, blocks_.size() - std::min<size_t>(blocks_.size(), kOpenBlocks));
-    for (size_t at = oldest; at < blocks_.size() && fitting == nullptr; ++at) {
-      const Pair& other = list_.pairs[pair_of_lane_[at * kLanes]];
-      const bool alike = other.shape == pair.shape && other.form == pair.form;
-      const bool room = blocks_[at].lanes < kLanes && !Shares(blocks_[at], a, b);
-      if (alike && room) fitting = &blocks_[at];
-    }
-    AddLane(order_[i], fitting != nullptr ? fitting : &AddBlock(order_[i]));
+    if (std::exchange(island, island_of_pair_[order_[i]]) != island) first_block = blocks_.size();
+    simd::PairBlock* const open = FindOpenBlock(order_[i], first_block);
+    AddLane(order_[i], open != nullptr ? open : &AddBlock(order_[i]));
   }
+}
+
+simd::PairBlock* Plan::FindOpenBlock(int index, size_t first_block) {
+  const Pair& pair = list().pairs[index];
+  const int a = slot_of_body_[pair.a], b = pair.b == kWorld ? 0 : slot_of_body_[pair.b];
+  const size_t most = std::min<size_t>(blocks_.size() - first_block, kOpenBlocks);
+  for (size_t at = blocks_.size() - most; at < blocks_.size(); ++at) {
+    const Pair& other = list().pairs[pair_of_lane_[at * kLanes]];
+    const bool alike = other.shape == pair.shape && other.form == pair.form;
+    if (alike && blocks_[at].lanes < kLanes && !Shares(blocks_[at], a, b)) return &blocks_[at];
+  }
+  return nullptr;
 }
 
 void Plan::FillBlocks() {
@@ -207,7 +222,7 @@ void Plan::FillBlocks() {
 
     // a block ends with its colour, its shape, or full
     for (; of_group(i); ++i) {
-      const Pair& pair = list_.pairs[order_[i]];
+      const Pair& pair = list().pairs[order_[i]];
       const bool same = static_cast<int>(blocks_.size()) > group.first_block &&
                         blocks_.back().lanes < kLanes &&
                         colour_of_block_.back() == colouring_.colours()[order_[i]] &&
@@ -249,18 +264,24 @@ void Plan::StagesOf(int g) {
     int next = b + 1;
     while (next < end && colour_of_block_[next] == colour_of_block_[b]) ++next;
     const int rows = RowsOf(b, next);
-    const bool serial = colour_of_block_[b] == Colour::kOverflow || rows < kTinyColour;
-    if (!serial) {
+    const bool overflow = colour_of_block_[b] == Colour::kOverflow;
+    if (!overflow && rows >= kTinyColour) {
       AddUnits(b, next, g);
-    } else if (tail && units_.back().rows + rows <= kStageRows) {
-      units_.back().blocks += next - b;
-      units_.back().rows += rows;
-    } else {
-      stages_.push_back({.first_unit = static_cast<int>(units_.size()), .units = 1});
-      units_.push_back({.first_block = b, .blocks = next - b, .group = g, .rows = rows});
+      tail = false;
+      b = next;
+      continue;
     }
-    tail = serial;
-    b = next;
+    // one thread: blocks of the overflow, and of tiny colours
+    for (; b < next; ++b) {
+      const int more = RowsOf(b, b + 1);
+      if (!tail || units_.back().rows + more > kTinyColoursRows) {
+        stages_.push_back({.first_unit = static_cast<int>(units_.size()), .units = 1});
+        units_.push_back({.first_block = b, .group = g});
+        tail = true;
+      }
+      ++units_.back().blocks;
+      units_.back().rows += more;
+    }
   }
 }
 

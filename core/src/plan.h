@@ -45,19 +45,21 @@ struct Stage {
 /// The order of work, from the structure of the problem and what was planned before; see Colouring.
 class Plan {
  public:
-  /// @pre the problem passed Validate()
-  void Make(const ContactProblem& problem, const MovableBodies& movable, double omega);
+  /// False if a row is not valid, by ValidateRow(); the plan is then of no use.
+  /// @pre the bodies are valid
+  [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const double> impulses,
+                          const MovableBodies& movable, double omega);
 
   std::span<const simd::PairBlock> blocks() const { return blocks_; }
   /// Pair of a lane. @pre lane < blocks()[block].lanes
   const Pair& pair(int block, int lane) const {
-    return list_.pairs[pair_of_lane_[block * simd::kLanes + lane]];
+    return list().pairs[pair_of_lane_[block * simd::kLanes + lane]];
   }
   int island_of(int block, int lane) const {
     return island_of_pair_[pair_of_lane_[block * simd::kLanes + lane]];
   }
   /// Problem rows of a pair.
-  std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
+  std::span<const int> rows_of(const Pair& pair) const { return list().rows_of(pair); }
 
   std::span<const Group> groups() const { return groups_; }
   std::span<const Stage> stages() const { return stages_; }
@@ -73,6 +75,7 @@ class Plan {
   int x_lines() const { return x_lines_; }
 
  private:
+  const PairList& list() const { return pair_finder_.list(); }
   void FindIslands(int bodies);
   void FindGroups();
   void SortPairs();
@@ -80,6 +83,7 @@ class Plan {
   void SortBy(int keys, const Key& key);
   void FillBlocks();
   void FillOverflow(size_t begin, size_t end);
+  simd::PairBlock* FindOpenBlock(int pair, size_t first_block);
   simd::PairBlock& AddBlock(int pair);
   void AddLane(int pair, simd::PairBlock* block);
   void GiveSlots(size_t bodies);
@@ -89,7 +93,6 @@ class Plan {
   void AddUnits(int first_block, int end_block, int group);
   int RowsOf(int first_block, int end_block) const;
 
-  PairList list_;
   ShapeTable shapes_;
   PairFinder pair_finder_;
   Colouring colouring_;

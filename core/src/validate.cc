@@ -37,11 +37,12 @@ Status CheckParent(std::span<const Row> rows, int index) {
 
 Status CheckRow(const ContactProblem& problem, int index) {
   const Row& row = problem.rows[index];
-  const bool finite = Finite(row.linear_a) && Finite(row.angular_a) && Finite(row.linear_b) &&
-                      Finite(row.angular_b) && std::isfinite(row.target) &&
-                      std::isfinite(row.compliance) && std::isfinite(row.friction) &&
-                      std::isfinite(row.relaxation);
-  if (!finite || std::isnan(row.lo) || std::isnan(row.hi)) return Status::kNotFinite;
+  // zero times what is not finite is not zero
+  double zero = 0 * row.target + 0 * row.compliance + 0 * row.friction + 0 * row.relaxation;
+  for (int k = 0; k < 3; ++k) {
+    zero += 0 * row.linear_a[k] + 0 * row.angular_a[k] + 0 * row.linear_b[k] + 0 * row.angular_b[k];
+  }
+  if (zero != 0 || std::isnan(row.lo) || std::isnan(row.hi)) return Status::kNotFinite;
 
   const int bodies = static_cast<int>(problem.bodies.size());
   const auto known = [bodies](int body) { return body >= kWorld && body < bodies; };
@@ -105,6 +106,10 @@ bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor) 
   return rest.cwiseAbs().maxCoeff() <= tolerance;
 }
 
+Status ValidateRow(const ContactProblem& problem, int row, double impulse) {
+  return std::isfinite(impulse) ? CheckRow(problem, row) : Status::kNotFinite;
+}
+
 Report Validate(const ContactProblem& problem, std::span<const double> impulses) {
   Report report;
   if (problem.bodies.empty()) {
@@ -122,7 +127,7 @@ Report Validate(const ContactProblem& problem, std::span<const double> impulses)
     return report;
   }
   for (int row = 0; row < static_cast<int>(problem.rows.size()); ++row) {
-    report.status = std::isfinite(impulses[row]) ? CheckRow(problem, row) : Status::kNotFinite;
+    report.status = ValidateRow(problem, row, impulses[row]);
     if (report.ok()) continue;
     report.bad_row = row;
     return report;

@@ -13,6 +13,9 @@ namespace cairn {
 /// On a status other than kOk, bad_row or bad_body of the report names the first offender.
 Report Validate(const ContactProblem& problem, std::span<const double> impulses);
 
+/// One row of it. @pre the bodies are valid
+Status ValidateRow(const ContactProblem& problem, int row, double impulse);
+
 Status Validate(const Settings& settings);
 
 /// R with R R' = inv_inertia, zero columns last where the matrix has no rank. False if the matrix

@@ -45,8 +45,8 @@ testing::AssertionResult SameBits(const Solution& a, const Solution& b);
 double Distance(const std::vector<double>& a, const std::vector<double>& b);
 double Distance(const std::vector<Velocity>& a, const std::vector<Velocity>& b);
 
-/// So many sweeps in double precision, row by row in the order given, and nothing else: no steps, no
-/// look at the residual. A budget may forbid them all, here and in AlwaysSteps().
+/// So many sweeps in double precision, row by row in the order given, and nothing else: no steps,
+/// no look at the residual. A budget may forbid them all, here and in AlwaysSteps().
 Settings PlainSweeps(int sweeps);
 /// A step after every k_gs such sweeps, whatever it costs, and no look at the tolerance.
 Settings AlwaysSteps(int sweeps);

@@ -16,10 +16,11 @@ class Budget {
   /// No limit: Settings::tolerance and Settings::max_sweeps decide.
   static constexpr Budget Unlimited() { return Budget(Kind::kUnlimited, 0); }
 
-  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read every 256 rows; a
-  /// subspace step starts only if its predicted cost and the sweeps after it fit. Results depend on
-  /// the machine: Report::work says how much was done. For a problem in matrix form the clock is
-  /// read between sweeps and between factorisations, not inside them.
+  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every 8192
+  /// rows, and what writing the results will take is set aside; a subspace step starts only if its
+  /// predicted cost and the sweeps after it fit. Results depend on the machine: Report::replay says
+  /// how to make them again. For a problem in matrix form the clock is read between sweeps and
+  /// between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());
   }

@@ -63,7 +63,7 @@ struct Row {
 /// such that every row obeys its law (see Row). Without friction this is the boxed form of the
 /// mixed LCP of the paper [1] with matrix J M^-1 J' + E; friction bounds depend on other impulses.
 ///
-/// Rows are swept in the order given.
+/// The order of the rows matters with SweepOrder::kForward, and among the rows of two bodies.
 ///
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.

@@ -19,17 +19,20 @@ enum class Method {
   kInteriorPoint,
 };
 
-/// The order in which the rows of a problem in matrix form are swept. Rows of a ContactProblem are
-/// swept in the order given.
+/// The order in which rows are swept.
 enum class SweepOrder {
-  /// kColoured for a large problem that few colours suffice for, else kForward. The choice depends
-  /// on the matrix alone.
+  /// Matrix form: kColoured for a large problem that few colours suffice for, else kForward; the
+  /// choice depends on the matrix alone. Contact problems: kColoured, unless Settings::tolerance is
+  /// too fine for floats (positive and below 1e-5).
   kAutomatic,
-  kForward,    ///< Row 0 first.
-  kReverse,    ///< Row 0 last.
-  kSymmetric,  ///< Forward and reverse in turn.
-  /// Colour by colour: rows of a colour share no entry of M, and threads relax them side by side.
-  /// Same bits for any number of threads.
+  /// Row 0 first. Contact problems: in double precision, on one thread.
+  kForward,
+  kReverse,    ///< Row 0 last. Contact problems: as kForward.
+  kSymmetric,  ///< Forward and reverse in turn. Contact problems: as kForward.
+  /// Colour by colour: what has one colour shares no unknown, and threads relax it side by side.
+  /// Same bits for any number of threads. Contact problems: all rows of two bodies together, joints
+  /// before contacts, in floats with vector instructions; the same bits for any of those. Numbers
+  /// beyond 1e18 are left to kForward. See docs/solver.md.
   kColoured,
 };
 

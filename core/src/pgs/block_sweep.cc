@@ -12,8 +12,10 @@ class BlockSweeps::Pass final : public StagedWork {
  public:
   enum class Kind { kSweeps, kMeasure };
 
-  Pass(const BlockSweeps& sweeps, Kind kind, int count, std::span<const GroupSweeps> groups)
-      : sweeps_(sweeps), kind_(kind), count_(count), groups_(groups) {
+  /// @p price: of a row, in work units.
+  Pass(const BlockSweeps& sweeps, Kind kind, std::span<const GroupSweeps> groups, int count,
+       double price)
+      : sweeps_(sweeps), kind_(kind), count_(count), price_(price), groups_(groups) {
     for (const GroupSweeps& group : groups) {
       if (group.active) made_ = group.sweeps;
     }
@@ -59,22 +61,24 @@ class BlockSweeps::Pass final : public StagedWork {
   void PlanStage(const Stage& stage, double left) {
     units_ = 0;
     rows_ = 0;
-    while (units_ < stage.units && (units_ == 0 || rows_ < left)) {
-      const Unit& unit = plan().units()[stage.first_unit + units_++];
-      if (groups_[unit.group].active) rows_ += unit.rows;
+    for (; units_ < stage.units; ++units_) {
+      const Unit& unit = plan().units()[stage.first_unit + units_];
+      if (!groups_[unit.group].active) continue;
+      if (rows_ > 0 && rows_ >= left) break;
+      rows_ += unit.rows;
     }
     if (units_ == stage.units) ++whole_stages_;
   }
 
   void ChargeLast() {
-    const double share = kind_ == Kind::kMeasure ? kMeasureSweeps : 1;
     const double rows = static_cast<double>(std::exchange(rows_, 0));
-    if (rows > 0 && sweeps_.charges_) sweeps_.meter_->Charge(WorkKind::kSweep, share * rows);
+    if (rows > 0 && price_ > 0) sweeps_.meter_->Charge(WorkKind::kSweep, price_ * rows);
   }
 
   const BlockSweeps& sweeps_;
   const Kind kind_;
   const int count_;
+  const double price_;
   std::span<const GroupSweeps> groups_;
   int made_ = 0;           ///< sweeps before this pass
   int whole_stages_ = 0;   ///< planned so far
@@ -84,7 +88,7 @@ class BlockSweeps::Pass final : public StagedWork {
 
 bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
   meter_->Begin();
-  Pass pass(*this, Pass::Kind::kSweeps, count, groups);
+  Pass pass(*this, Pass::Kind::kSweeps, groups, count, 1);
   crew_->Run(&pass);
   const int made = pass.Finish();
   for (GroupSweeps& group : groups) {
@@ -94,8 +98,14 @@ bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
 }
 
 void BlockSweeps::Measure(std::span<const GroupSweeps> groups) {
-  if (charges_) meter_->Begin();
-  Pass pass(*this, Pass::Kind::kMeasure, 1, groups);
+  meter_->Begin();
+  MeasureAt(kMeasureSweeps, groups);
+}
+
+void BlockSweeps::MeasureFree(std::span<const GroupSweeps> groups) { MeasureAt(0, groups); }
+
+void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
+  Pass pass(*this, Pass::Kind::kMeasure, groups, 1, price);
   crew_->Run(&pass);
   pass.Finish();
 }

@@ -33,8 +33,8 @@ class BlockSweeps {
 
   /// Natural residuals of the active groups, into BlockFrame::errors().
   void Measure(std::span<const GroupSweeps> groups);
-  /// From now on nothing is charged: the results are being written.
-  void EndCharges() { charges_ = false; }
+  /// Residuals likewise, free of charge: to keep and to write results, not to get to them.
+  void MeasureFree(std::span<const GroupSweeps> groups);
 
   /// What the errors of a group amount to, for each of its islands, into one entry for each of the
   /// plan.
@@ -42,13 +42,13 @@ class BlockSweeps {
 
  private:
   class Pass;
+  void MeasureAt(double price, std::span<const GroupSweeps> groups);
   Residual ErrorOf(const Group& group) const;
 
   BlockFrame* frame_;
   const Settings& settings_;
   BudgetMeter* meter_;
   Crew* crew_;
-  bool charges_ = true;
 };
 
 }  // namespace cairn

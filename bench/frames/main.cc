@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Solver on frames of the scenes, recorded from Bullet worlds and solved outside of them.
+#include <fmt/format.h>
+
+#include <exception>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "CLI/CLI.hpp"
+#include "frames/budget.h"
+#include "frames/cost.h"
+#include "frames/threads.h"
+
+namespace cairn::frames {
+namespace {
+
+std::vector<SceneChoice> ParseScenes(const std::vector<std::string>& words) {
+  std::vector<SceneChoice> scenes;
+  for (const std::string& word : words) scenes.push_back(ParseScene(word));
+  return scenes;
+}
+
+/// As it was typed, less the folder of the program.
+std::string CommandOf(int count, char** arguments) {
+  const std::string program = arguments[0];
+  std::string command = program.substr(program.rfind('/') + 1);
+  for (int i = 1; i < count; ++i) command += fmt::format(" {}", arguments[i]);
+  return command;
+}
+
+void AddScenes(CLI::App* app, std::vector<std::string>* words) {
+  app->add_option("--scene", *words, "NAME, NAME:SIZE, NAME@FIRST_FRAME; may be repeated")
+      ->capture_default_str();
+}
+
+void AddSeries(CLI::App* app, SeriesOptions* options) {
+  app->add_option("--frame", options->frame, "First frame looked at")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app->add_option("--rounds", options->rounds, "Repetitions")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+}
+
+void AddBudget(CLI::App* app, BudgetOptions* options) {
+  app->add_option("--budget", options->budgets_ms, "[ms], from small to large; may be repeated")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--first", options->first, "First frame")->check(CLI::NonNegativeNumber);
+  app->add_option("--last", options->last, "Last frame")->check(CLI::NonNegativeNumber);
+  app->add_option("--most-rows", options->most_rows, "Of all frames that are kept")
+      ->capture_default_str();
+  app->add_option("--solves", options->solves, "For each budget")
+      ->check(CLI::Range(1, 10000000))
+      ->capture_default_str();
+  app->add_option("--min-sweeps", options->min_sweeps)->capture_default_str();
+  app->add_option("--threads", options->threads)->capture_default_str();
+  const std::map<std::string, Method> methods = {
+      {"pgs", Method::kPgs}, {"psor", Method::kPsor}, {"pgs-sm", Method::kPgsSm}};
+  app->add_option("--method", options->method)->transform(CLI::CheckedTransformer(methods));
+}
+
+int Main(int count, char** arguments) {
+  CLI::App app("Budgets, costs and threads of cairn::Solver on frames of the scenes.",
+               "cairn_frames");
+  app.require_subcommand(1);
+
+  BudgetOptions budget{.scenes = {}, .budgets_ms = {0.25, 0.5, 1, 2, 4}};
+  std::vector<std::string> budget_scenes = {"castle", "pyramid:100", "islands"};
+  CLI::App* const budget_app = app.add_subcommand("budget", "How well Budget::Time is kept");
+  AddScenes(budget_app, &budget_scenes);
+  AddBudget(budget_app, &budget);
+
+  SeriesOptions cost;
+  std::vector<std::string> cost_scenes = {"castle",       "pyramid:100",  "rubble@240",
+                                          "ragdolls@240", "islands",      "pyramid3d:4",
+                                          "pyramid3d:8",  "pyramid3d:14", "pyramid3d:22"};
+  CLI::App* const cost_app = app.add_subcommand("cost", "What rows and frames cost");
+  AddScenes(cost_app, &cost_scenes);
+  AddSeries(cost_app, &cost);
+
+  SeriesOptions threads{.scenes = {}, .rounds = 101};
+  std::vector<int> sizes = {2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 18, 22};
+  CLI::App* const threads_app = app.add_subcommand("threads", "Two threads against one");
+  threads_app->add_option("--size", sizes, "Of pyramid3d; may be repeated");
+  AddSeries(threads_app, &threads);
+
+  CLI11_PARSE(app, count, arguments);
+  const std::string command = CommandOf(count, arguments);
+  if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
+  if (budget_app->parsed()) {
+    budget.scenes = ParseScenes(budget_scenes);
+    PrintBudgets(budget, command);
+  } else if (cost_app->parsed()) {
+    cost.scenes = ParseScenes(cost_scenes);
+    PrintCosts(cost, command);
+  } else {
+    threads.scenes = Pyramids(sizes);
+    PrintThreads(threads, command);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace cairn::frames
+
+int main(int count, char** arguments) {
+  try {
+    return cairn::frames::Main(count, arguments);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cairn_frames: {}\n", error.what());
+    return 2;
+  }
+}

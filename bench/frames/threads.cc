@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "frames/threads.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <vector>
+
+#include "cli/statistics.h"
+#include "frames/frame_solver.h"
+#include "frames/markdown.h"
+
+namespace cairn::frames {
+namespace {
+
+constexpr int kSweeps = 10;
+/// One thread twice: what differs between the two is noise.
+constexpr std::array<int, 3> kThreads = {1, 1, 2};
+
+/// [us]
+using Times = std::array<std::vector<double>, kThreads.size()>;
+
+Times TimeFrame(const bench::ContactFrame& frame, int rounds) {
+  std::vector<FrameSolver> solvers;
+  for (const int threads : kThreads) solvers.emplace_back(Sweeps(kSweeps, threads));
+  for (FrameSolver& solver : solvers) solver.Solve(frame);
+  Times times;
+  for (int round = 0; round < rounds; ++round) {
+    for (size_t k = 0; k < solvers.size(); ++k) {
+      const size_t lane = (k + static_cast<size_t>(round)) % solvers.size();
+      times[lane].push_back(solvers[lane].Solve(frame).wall_us);
+    }
+  }
+  return times;
+}
+
+}  // namespace
+
+void PrintThreads(const SeriesOptions& options, const std::string& command) {
+  PrintOrigin("Threads: wall time of a Solve() of ten sweeps", command);
+  fmt::print(
+      "- {} rounds, in turn; medians, and ratios of medians and of the fastest tenths\n"
+      "- 1 / 1: one thread against one thread again, which is noise\n\n",
+      options.rounds);
+  MarkdownTable table({"scene", "rows", "1 thread us", "2 threads us", "1 / 2", "1 / 2 fast",
+                       "1 / 1", "1 / 1 fast"});
+  for (const SceneChoice& scene : options.scenes) {
+    SceneRun run(scene);
+    run.Skip(scene.FirstFrame(options.frame));
+    const bench::ContactFrame frame = run.Next();
+    const Times times = TimeFrame(frame, options.rounds);
+    const auto ratio = [&](int lane, double share) {
+      return fmt::format("{:.2f}",
+                         cli::Quantile(times[0], share) / cli::Quantile(times[lane], share));
+    };
+    table.Add({NameOf(scene), fmt::format("{}", frame.rows.size()),
+               fmt::format("{:.1f}", cli::Median(times[0])),
+               fmt::format("{:.1f}", cli::Median(times[2])), ratio(2, 0.5), ratio(2, 0.1),
+               ratio(1, 0.5), ratio(1, 0.1)});
+  }
+  table.Print();
+}
+
+}  // namespace cairn::frames
