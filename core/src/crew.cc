@@ -97,6 +97,8 @@ class Board {
 
   /// A helper, already counted: works until the board is closed.
   void Help() {
+    // what the caller wrote before it opened the board is seen from here on
+    static_cast<void>(open_.load(std::memory_order_acquire));
     const int home = homes_.fetch_add(1, std::memory_order_relaxed) + 1;
     do {
       HelpWhileOpen(home);

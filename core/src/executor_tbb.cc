@@ -2,6 +2,7 @@
 #include "executor_tbb.h"
 
 #include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
 
 namespace cairn {
 namespace {
@@ -9,14 +10,19 @@ namespace {
 class TbbExecutor final : public Executor {
  public:
   explicit TbbExecutor(int threads) : arena_(threads) {}
+  /// Tasks that no thread came for are run here: by now they return at once.
+  ~TbbExecutor() override {
+    arena_.execute([this] { tasks_->wait(); });
+  }
 
   void Submit(void (*work)(void*), void* what) override {
-    // oneTBB hands tasks over safely, but the thread sanitizer does not see into it
-    arena_.enqueue([ work, what ]() __attribute__((no_sanitize("thread"))) { work(what); });
+    arena_.execute([&] { tasks_->run([work, what] { work(what); }); });
   }
 
  private:
   tbb::task_arena arena_;
+  // its destructor may throw, where ours may not
+  std::unique_ptr<tbb::task_group> tasks_ = std::make_unique<tbb::task_group>();
 };
 
 }  // namespace

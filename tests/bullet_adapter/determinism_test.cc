@@ -3,42 +3,20 @@
 // threads.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <string>
+#include <cstdint>
+#include <string_view>
 
 #include "cairn/bullet/constraint_solver.h"
-#include "simd/target.h"
 #include "tests/bullet_adapter/scene_world.h"
+#include "tests/simd/ask_for.h"
 
 namespace cairn::test {
 namespace {
 
 constexpr int kFrames = 120;
 
-/// CAIRN_SIMD while it lives: solvers that are made then use that target.
-class AskedFor {
- public:
-  explicit AskedFor(simd::Target target) {
-    const char* const before = std::getenv("CAIRN_SIMD");
-    if (before != nullptr) before_ = before;
-    setenv("CAIRN_SIMD", std::string(simd::TargetName(target)).c_str(), 1);
-  }
-  ~AskedFor() {
-    if (before_.empty()) {
-      unsetenv("CAIRN_SIMD");
-    } else {
-      setenv("CAIRN_SIMD", before_.c_str(), 1);
-    }
-  }
-  AskedFor(const AskedFor&) = delete;
-  AskedFor& operator=(const AskedFor&) = delete;
-
- private:
-  std::string before_;
-};
-
 std::uint64_t HashAfter(std::string_view scene, simd::Target target, int threads) {
-  const AskedFor asked(target);
+  const AskFor asked(target);
   bullet::ConstraintSolver solver(Settings{.method = Method::kPgs, .threads = threads});
   SceneWorld world(scene, &solver);
   world.Step(kFrames);

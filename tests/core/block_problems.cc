@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "islands.h"
@@ -246,21 +245,6 @@ testing::AssertionResult SameBits(std::span<const Solution> a, std::span<const S
     if (!same) return same << ", frame " << i;
   }
   return testing::AssertionSuccess();
-}
-
-AskFor::AskFor(simd::Target target) {
-  const char* const before = std::getenv("CAIRN_SIMD");
-  was_set_ = before != nullptr;
-  if (was_set_) before_ = before;
-  setenv("CAIRN_SIMD", std::string(simd::TargetName(target)).c_str(), 1);
-}
-
-AskFor::~AskFor() {
-  if (was_set_) {
-    setenv("CAIRN_SIMD", before_.c_str(), 1);
-  } else {
-    unsetenv("CAIRN_SIMD");
-  }
 }
 
 }  // namespace cairn::test

@@ -4,13 +4,12 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "pairs.h"
 #include "plan.h"
 #include "problems.h"
-#include "simd/target.h"
+#include "tests/simd/ask_for.h"
 
 namespace cairn::test {
 
@@ -67,18 +66,5 @@ std::vector<Solution> Play(const Settings& settings, const Scene& whole, int fra
 /// FNV-1a of all impulses and velocities.
 std::uint64_t HashOf(std::span<const Solution> solutions);
 testing::AssertionResult SameBits(std::span<const Solution> a, std::span<const Solution> b);
-
-/// Solvers that are made while it lives use that target.
-class AskFor {
- public:
-  explicit AskFor(simd::Target target);
-  ~AskFor();
-  AskFor(const AskFor&) = delete;
-  AskFor& operator=(const AskFor&) = delete;
-
- private:
-  bool was_set_;
-  std::string before_;
-};
 
 }  // namespace cairn::test
