@@ -125,8 +125,8 @@ PackResult BlockFrame::Pack(const ContactProblem& problem, std::span<const doubl
   WorstResult worst;
   const auto pack = [&](int unit) {
     const Unit& of = plan_.units()[unit];
-    if (worst.get() == PackResult::kDone)
-      worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
+    if (worst.get() != PackResult::kDone) return;
+    worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
   };
   Parts parts(static_cast<int>(plan_.units().size()), pack);
   crew->Run(&parts);

@@ -186,8 +186,6 @@ Crew::~Crew() = default;
 Crew::Crew(Crew&&) noexcept = default;
 Crew& Crew::operator=(Crew&&) noexcept = default;
 
-int Crew::threads() const { return impl_->threads; }
-
 void Crew::Follow(const Settings& settings) {
   const bool same = impl_->threads == settings.threads && impl_->given == settings.executor;
   if (!same) *this = Crew(settings.threads, settings.executor);

@@ -38,7 +38,6 @@ class Crew {
   Crew(Crew&&) noexcept;
   Crew& operator=(Crew&&) noexcept;
 
-  int threads() const;
   /// Becomes that of the settings, if it is not already.
   void Follow(const Settings& settings);
 

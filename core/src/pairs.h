@@ -73,7 +73,7 @@ inline bool ActsOpposite(const Row& row) {
 /// friction row goes with its parent, other rows with earlier ones of the same bodies and kind.
 class PairFinder {
  public:
-  /// Fills @p list, and @p shapes as far as new. False if a row is not valid, by ValidateRow().
+  /// Fills list(), and @p shapes as far as new. False if a row is not valid, by ValidateRow().
   /// @pre the bodies are valid
   [[nodiscard]] bool Find(const ContactProblem& problem, std::span<const double> impulses,
                           const MovableBodies& movable, double omega, ShapeTable* shapes);
@@ -82,7 +82,6 @@ class PairFinder {
  private:
   int PairOf(const Row& row, int index);
   int Look(int a, int b, bool contact);
-  void Grow();
   void HandOutRows();
   void FindShapes(ShapeTable* shapes);
 
