@@ -10,6 +10,8 @@ namespace {
 
 /// Bodies that one thread whitens, or writes back, at a time.
 constexpr int kBodiesOfUnit = 256;
+/// Rows whose laws one thread reads at a time.
+constexpr int kRowsOfUnit = 1024;
 
 /// One stage of units that are all alike.
 template <class Function>
@@ -92,11 +94,7 @@ PackResult BlockFrame::Begin(const ContactProblem& problem, double omega,
                      movable_now_ == movable_;
   if (alike) result = Pack(problem, impulses, crew);
   if (result == PackResult::kChanged) {
-    movable_.swap(movable_now_);
-    omega_ = omega;
-    planned_rows_ = problem.rows.size();
-    ++plan_number_;
-    planned_ = plan_.Make(problem, impulses, movable_, omega);
+    planned_ = MakePlan(problem, omega, impulses, crew);
     if (!planned_) return PackResult::kChanged;
     PackerOf(problem).Reserve(&blocks_);
     if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
@@ -104,6 +102,23 @@ PackResult BlockFrame::Begin(const ContactProblem& problem, double omega,
   }
   if (result == PackResult::kDone) Start(crew);
   return result;
+}
+
+bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
+                          std::span<const double> impulses, Crew* crew) {
+  movable_.swap(movable_now_);
+  omega_ = omega;
+  planned_rows_ = problem.rows.size();
+  ++plan_number_;
+  laws_.resize(planned_rows_);
+  std::atomic<bool> valid{true};
+  InParts(static_cast<int>(planned_rows_), kRowsOfUnit, crew, [&](int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      if (ReadLaw(problem, i, impulses[i], omega, &laws_[i])) continue;
+      valid.store(false, std::memory_order_relaxed);
+    }
+  });
+  return valid && plan_.Make(problem.bodies, laws_, movable_);
 }
 
 bool BlockFrame::WhitenBodies(std::span<const Body> bodies, Crew* crew) {

@@ -17,8 +17,8 @@ namespace cairn {
 /// problem stays, and no memory is asked for unless a frame is larger than all before it.
 class BlockFrame {
  public:
-  /// Lays out the problem, with u from the start impulses. On kChanged the input is not valid: see
-  /// Validate().
+  /// Lays out the problem, with u from the start impulses. On kChanged the input is not valid, on
+  /// kOutOfRange it may not be: see Validate().
   [[nodiscard]] PackResult Begin(const ContactProblem& problem, double omega,
                                  std::span<const double> impulses, Crew* crew);
   /// Writes the results.
@@ -38,6 +38,8 @@ class BlockFrame {
 
  private:
   bool WhitenBodies(std::span<const Body> bodies, Crew* crew);
+  bool MakePlan(const ContactProblem& problem, double omega, std::span<const double> impulses,
+                Crew* crew);
   PackResult Pack(const ContactProblem& problem, std::span<const double> impulses, Crew* crew);
   void Start(Crew* crew);
   BlockPacker PackerOf(const ContactProblem& problem) const;
@@ -46,6 +48,7 @@ class BlockFrame {
   const simd::PairKernels* kernels_ = &simd::PairKernelsFor(target_);
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
   Plan plan_;
+  std::vector<RowLaw> laws_;
   int plan_number_ = 0;
   double omega_ = 1;
   size_t planned_rows_ = 0;

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "row_law.h"
+
 namespace cairn {
 namespace {
 
@@ -38,13 +40,6 @@ bool Joins(const Row& row, const Pair& pair, const MovableBodies& movable) {
   const bool same = row.body_a != row.body_b || row.body_a == kWorld;
   return same && ((is(row.body_a, pair.a) && is(row.body_b, pair.b)) ||
                   (is(row.body_b, pair.a) && is(row.body_a, pair.b)));
-}
-
-/// Its numbers may be used, apart from what its Jacobian and target show.
-bool HasValidLaw(const Row& row) {
-  return row.compliance >= 0 && row.relaxation > 0 && row.relaxation < 2 && row.friction >= 0 &&
-         row.friction < kInfinity && row.lo <= row.hi && row.lo < kInfinity &&
-         row.hi > -kInfinity && (row.parent == kNoRow || (row.lo <= 0 && row.hi >= 0));
 }
 
 float Bound(double value) {

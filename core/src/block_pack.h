@@ -24,7 +24,7 @@ enum class PackResult {
   kDone,
   /// The problem is not the one that was planned for, or its numbers are not valid.
   kChanged,
-  /// Valid, but out of the range of a float.
+  /// Out of the range of a float; not valid either, if the plan is an old one.
   kOutOfRange,
 };
 

@@ -2,6 +2,7 @@
 #include "colouring.h"
 
 #include <bit>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -18,18 +19,16 @@ std::uint64_t HashOf(std::uint64_t a, std::uint64_t b, bool contact) {
 
 }  // namespace
 
-Colouring::Name Colouring::NameOf(std::span<const Body> bodies, const Pair& pair) const {
-  const auto name = [bodies](int body) -> std::uint64_t {
-    if (body == kWorld) return 0;
-    return bodies[body].id != 0 ? bodies[body].id : kUnnamed + static_cast<std::uint64_t>(body);
-  };
+Colouring::Name Colouring::NameOf(const Pair& pair) const {
+  const auto name = [this](int body) { return body == kWorld ? 0 : body_names_[body]; };
   const std::uint64_t a = name(pair.a), b = name(pair.b);
   return a > b ? Name{a, b, pair.contact} : Name{b, a, pair.contact};
 }
 
-int Colouring::FindKnown(const Name& name, size_t expected) const {
+int Colouring::FindKnown(const Name& name, size_t expected) {
+  // pairs mostly come in the order of the last call
   if (expected < known_.size() && known_[expected].name == name) return static_cast<int>(expected);
-  if (table_.empty()) return -1;
+  if (!table_filled_) FillTable();
   const size_t mask = table_.size() - 1;
   for (size_t at = HashOf(name.a, name.b, name.contact) & mask;; at = (at + 1) & mask) {
     if (table_[at] == 0) return -1;
@@ -37,7 +36,7 @@ int Colouring::FindKnown(const Name& name, size_t expected) const {
   }
 }
 
-void Colouring::Rebuild() {
+void Colouring::FillTable() {
   size_t capacity = 64;
   while (capacity < 2 * known_.size()) capacity *= 2;
   table_.assign(capacity, 0);
@@ -47,6 +46,7 @@ void Colouring::Rebuild() {
     while (table_[at] != 0) at = (at + 1) & (capacity - 1);
     table_[at] = static_cast<int>(i) + 1;
   }
+  table_filled_ = true;
 }
 
 int Colouring::Choose(const Pair& pair, int kind) {
@@ -64,27 +64,14 @@ void Colouring::Occupy(const Pair& pair, int kind, int colour) {
 }
 
 void Colouring::Update(std::span<const Body> bodies, std::span<const Pair> pairs) {
+  body_names_.resize(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    body_names_[i] = bodies[i].id != 0 ? bodies[i].id : kUnnamed + i;
+  }
   masks_.assign(bodies.size(), {});
   colours_.assign(pairs.size(), -1);
-  next_.clear();
-
-  // those that are known, where two bodies did not swap names
-  size_t expected = 0;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    const Name name = NameOf(bodies, pairs[i]);
-    const int known = FindKnown(name, expected);
-    next_.push_back({name, Colour::kOverflow});
-    if (known < 0) continue;
-    expected = static_cast<size_t>(known) + 1;
-    const int kind = KindOf(pairs[i]), colour = known_[known].colour;
-    const bool of_kind = colour != Colour::kOverflow && (colour - 1) / Colour::kOfKind == kind;
-    if (!of_kind) continue;
-    const std::uint32_t bit = std::uint32_t{1} << ((colour - 1) % Colour::kOfKind);
-    const auto taken = [&](int body) { return body != kWorld && masks_[body].used[kind] & bit; };
-    if (taken(pairs[i].a) || taken(pairs[i].b)) continue;
-    colours_[i] = colour;
-    Occupy(pairs[i], kind, colour);
-  }
+  before_.assign(pairs.size(), -1);
+  KeepKnown(pairs);
 
   // the new ones
   for (size_t i = 0; i < pairs.size(); ++i) {
@@ -96,7 +83,30 @@ void Colouring::Update(std::span<const Body> bodies, std::span<const Pair> pairs
     next_[i].colour = colours_[i];
   }
   known_.swap(next_);
-  Rebuild();
+  table_filled_ = false;
+}
+
+void Colouring::KeepKnown(std::span<const Pair> pairs) {
+  size_t expected = 0;
+  next_.clear();
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const Name name = NameOf(pairs[i]);
+    next_.push_back({name, Colour::kOverflow, false});
+    const int known = FindKnown(name, expected);
+    if (known < 0 || std::exchange(known_[known].again, true)) continue;
+    before_[i] = known;
+    expected = static_cast<size_t>(known) + 1;
+
+    // unless two bodies swapped names, or can no longer move
+    const int kind = KindOf(pairs[i]), colour = known_[known].colour;
+    const bool of_kind = colour != Colour::kOverflow && (colour - 1) / Colour::kOfKind == kind;
+    if (!of_kind) continue;
+    const std::uint32_t bit = std::uint32_t{1} << ((colour - 1) % Colour::kOfKind);
+    const auto taken = [&](int body) { return body != kWorld && masks_[body].used[kind] & bit; };
+    if (taken(pairs[i].a) || taken(pairs[i].b)) continue;
+    colours_[i] = colour;
+    Occupy(pairs[i], kind, colour);
+  }
 }
 
 }  // namespace cairn

@@ -31,6 +31,9 @@ class Colouring {
   void Update(std::span<const Body> bodies, std::span<const Pair> pairs);
 
   std::span<const int> colours() const { return colours_; }
+  /// Where each pair was in the list of the last call, -1 for those that have just begun; no place
+  /// twice, even where bodies share a name.
+  std::span<const int> before() const { return before_; }
 
  private:
   using Masks = std::uint32_t[Colour::kKinds];
@@ -43,17 +46,21 @@ class Colouring {
   struct Known {
     Name name;
     int colour;
+    bool again;  ///< found in this call
   };
 
-  Name NameOf(std::span<const Body> bodies, const Pair& pair) const;
-  int FindKnown(const Name& name, size_t expected) const;
-  void Rebuild();
+  Name NameOf(const Pair& pair) const;
+  int FindKnown(const Name& name, size_t expected);
+  void FillTable();
+  void KeepKnown(std::span<const Pair> pairs);
   int Choose(const Pair& pair, int kind);
   void Occupy(const Pair& pair, int kind, int colour);
 
   std::vector<Known> known_, next_;
   std::vector<int> table_;  ///< open addressing into known_: place + 1, or 0
-  std::vector<int> colours_;
+  bool table_filled_ = false;
+  std::vector<std::uint64_t> body_names_;
+  std::vector<int> colours_, before_;
   struct BodyMasks {
     Masks used;
   };

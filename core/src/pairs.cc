@@ -2,13 +2,15 @@
 #include "pairs.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include "islands.h"
-#include "validate.h"
 
 namespace cairn {
 namespace {
+
+constexpr int kMostShapes = 1024;
 
 /// The same for (a, b) and (b, a).
 std::uint64_t Hash(int a, int b, bool contact) {
@@ -22,18 +24,11 @@ bool Joins(const Pair& pair, int a, int b) {
   return (pair.a == a && pair.b == b) || (pair.a == b && pair.b == a);
 }
 
-simd::RowBound BoundOf(const Row& row) {
-  const bool below = row.lo > -kInfinity, above = row.hi < kInfinity;
-  if (row.parent != kNoRow) {
-    return below || above ? simd::RowBound::kCutFriction : simd::RowBound::kFriction;
-  }
-  if (!below && !above) return simd::RowBound::kFree;
-  return row.lo == 0 && !above ? simd::RowBound::kPush : simd::RowBound::kOwn;
-}
-
-bool IsAngular(const Row& row) {
-  const auto zero = [](const Eigen::Vector3d& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; };
-  return zero(row.linear_a) && zero(row.linear_b);
+/// It may bound the friction of another row.
+bool MayBound(const RowLaw& parent, const RowLaw& row) {
+  const bool same =
+      (parent.a == row.a && parent.b == row.b) || (parent.a == row.b && parent.b == row.a);
+  return parent.parent == kNoRow && same;
 }
 
 }  // namespace
@@ -64,21 +59,6 @@ void ShapeTable::Clear() {
   begin_.resize(1);
 }
 
-bool HasShape(const Row& row, double omega, const simd::RowShape& shape) {
-  return BoundOf(row) == shape.bound && (row.compliance > 0) == shape.soft &&
-         (omega * row.relaxation != 1) == shape.relaxed && IsAngular(row) == shape.angular &&
-         row.max_sweeps == shape.max_sweeps;
-}
-
-simd::RowShape ShapeOf(const Row& row, double omega) {
-  return {.bound = BoundOf(row),
-          .soft = row.compliance > 0,
-          .relaxed = omega * row.relaxation != 1,
-          .angular = IsAngular(row),
-          .parent = -1,
-          .max_sweeps = row.max_sweeps};
-}
-
 namespace {
 
 simd::PairForm FormOf(const MovableBodies& movable, const Pair& pair) {
@@ -99,58 +79,57 @@ int PairFinder::Look(int a, int b, bool contact) {
   const size_t mask = table_.size() - 1;
   for (size_t at = Hash(a, b, contact) & mask;; at = (at + 1) & mask) {
     if (table_[at] == 0) {
-      list_.pairs.push_back({a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0});
-      table_[at] = static_cast<int>(list_.pairs.size());
+      list_->pairs.push_back({a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0});
+      table_[at] = static_cast<int>(list_->pairs.size());
       return table_[at] - 1;
     }
-    const Pair& known = list_.pairs[table_[at] - 1];
+    const Pair& known = list_->pairs[table_[at] - 1];
     if (Joins(known, a, b) && known.contact == contact) return table_[at] - 1;
   }
 }
 
-int PairFinder::PairOf(const Row& row, int index) {
-  if (row.parent != kNoRow) return pair_of_row_[row.parent];
+int PairFinder::PairOf(const RowLaw& law, size_t index) {
+  if (law.parent != kNoRow) return pair_of_row_[law.parent];
   const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
-  int a = moves(row.body_a) ? row.body_a : kWorld, b = moves(row.body_b) ? row.body_b : kWorld;
+  int a = moves(law.a) ? law.a : kWorld, b = moves(law.b) ? law.b : kWorld;
   if (a == kWorld) std::swap(a, b);
 
   // the neighbour's: limits of a joint only push, too, and follow its other rows
-  const bool contact = BoundOf(row) == simd::RowBound::kPush;
+  const bool contact = law.shape.bound == simd::RowBound::kPush;
   if (index > 0) {
-    const Pair& last = list_.pairs[pair_of_row_[index - 1]];
+    const Pair& last = list_->pairs[pair_of_row_[index - 1]];
     if (Joins(last, a, b) && (!last.contact || contact)) return pair_of_row_[index - 1];
   }
   return Look(a, b, contact);
 }
 
-bool PairFinder::Find(const ContactProblem& problem, std::span<const double> impulses,
-                      const MovableBodies& movable, double omega, ShapeTable* shapes) {
+bool PairFinder::Find(std::span<const RowLaw> laws, const MovableBodies& movable,
+                      ShapeTable* shapes, PairList* list) {
+  laws_ = laws;
   movable_ = &movable;
-  list_.pairs.clear();
-  const size_t rows = problem.rows.size();
-  pair_of_row_.resize(rows);
+  list_ = list;
+  list_->pairs.clear();
+  pair_of_row_.resize(laws.size());
   size_t capacity = 64;
-  while (capacity < 2 * rows) capacity *= 2;
+  while (capacity < 2 * laws.size()) capacity *= 2;
   table_.assign(capacity, 0);
 
-  // all that is wanted of a row, in one look at it: rows are large
-  row_shapes_.resize(rows);
-  parent_.resize(rows);
-  for (size_t i = 0; i < rows; ++i) {
-    if (ValidateRow(problem, static_cast<int>(i), impulses[i]) != Status::kOk) return false;
-    const Row& row = problem.rows[i];
-    const int index = pair_of_row_[i] = PairOf(row, static_cast<int>(i));
-    Pair& pair = list_.pairs[index];
+  for (size_t i = 0; i < laws.size(); ++i) {
+    const RowLaw& law = laws[i];
+    if (law.parent != kNoRow) {
+      const bool earlier = law.parent >= 0 && law.parent < static_cast<int>(i);
+      if (!earlier || !MayBound(laws[law.parent], law)) return false;
+    }
+    const int index = pair_of_row_[i] = PairOf(law, i);
+    Pair& pair = list_->pairs[index];
     if (pair.rows++ == 0) {
-      pair.row_a = row.body_a;
-      pair.row_b = row.body_b;
+      pair.row_a = law.a;
+      pair.row_b = law.b;
       pair.form = FormOf(movable, pair);
     }
-    if (pair.form == simd::PairForm::kContact && !ActsOpposite(row)) {
+    if (pair.form == simd::PairForm::kContact && !law.opposite) {
       pair.form = simd::PairForm::kJoint;
     }
-    row_shapes_[i] = ShapeOf(row, omega);
-    parent_[i] = row.parent;
   }
   HandOutRows();
   FindShapes(shapes);
@@ -160,29 +139,28 @@ bool PairFinder::Find(const ContactProblem& problem, std::span<const double> imp
 void PairFinder::HandOutRows() {
   const size_t rows = pair_of_row_.size();
   int first = 0;
-  for (Pair& pair : list_.pairs) {
+  for (Pair& pair : list_->pairs) {
     pair.first = first;
     first += std::exchange(pair.rows, 0);
   }
-  list_.rows.resize(rows);
+  list_->rows.resize(rows);
   place_.resize(rows);
   for (size_t i = 0; i < rows; ++i) {
-    Pair& pair = list_.pairs[pair_of_row_[i]];
+    Pair& pair = list_->pairs[pair_of_row_[i]];
     place_[i] = pair.rows++;
-    list_.rows[pair.first + place_[i]] = static_cast<int>(i);
+    list_->rows[pair.first + place_[i]] = static_cast<int>(i);
   }
 }
 
 void PairFinder::FindShapes(ShapeTable* shapes) {
   // a caller that changes settings of single rows must not fill the memory with shapes
-  constexpr int kMostShapes = 1024;
   if (shapes->size() > kMostShapes) shapes->Clear();
 
-  for (Pair& pair : list_.pairs) {
+  for (Pair& pair : list_->pairs) {
     scratch_.clear();
-    for (int row : list_.rows_of(pair)) {
-      scratch_.push_back(row_shapes_[row]);
-      const int parent = parent_[row];
+    for (int row : list_->rows_of(pair)) {
+      scratch_.push_back(laws_[row].shape);
+      const int parent = laws_[row].parent;
       if (parent != kNoRow) scratch_.back().parent = static_cast<std::int16_t>(place_[parent]);
     }
     pair.shape = shapes->Intern(scratch_);

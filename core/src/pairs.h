@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "cairn/contact_problem.h"
-#include "cairn/settings.h"
+#include "row_law.h"
 #include "simd/pair_block.h"
 
 namespace cairn {
@@ -56,42 +55,27 @@ enum Mobility : char {
 using MovableBodies = std::vector<Mobility>;
 Mobility MobilityOf(const Body& body);
 
-/// The law of a row as a kernel sees it, without the parent. @p omega: Settings::omega of kPsor, or
-/// 1.
-simd::RowShape ShapeOf(const Row& row, double omega);
-
-/// Whether it still has that law, the parent apart.
-bool HasShape(const Row& row, double omega, const simd::RowShape& shape);
-
-/// Whether a row acts on its bodies with opposite forces.
-inline bool ActsOpposite(const Row& row) {
-  return row.linear_a.x() == -row.linear_b.x() && row.linear_a.y() == -row.linear_b.y() &&
-         row.linear_a.z() == -row.linear_b.z();
-}
-
 /// Collects the rows of each pair of bodies. Consecutive rows of the same bodies stay together; a
 /// friction row goes with its parent, other rows with earlier ones of the same bodies and kind.
 class PairFinder {
  public:
-  /// Fills list(), and @p shapes as far as new. False if a row is not valid, by ValidateRow().
-  /// @pre the bodies are valid
-  [[nodiscard]] bool Find(const ContactProblem& problem, std::span<const double> impulses,
-                          const MovableBodies& movable, double omega, ShapeTable* shapes);
-  const PairList& list() const { return list_; }
+  /// Fills the list, and @p shapes as far as new. False if a row has no parent that it may have: an
+  /// earlier one of the same bodies, which has none itself.
+  [[nodiscard]] bool Find(std::span<const RowLaw> laws, const MovableBodies& movable,
+                          ShapeTable* shapes, PairList* list);
 
  private:
-  int PairOf(const Row& row, int index);
+  int PairOf(const RowLaw& law, size_t index);
   int Look(int a, int b, bool contact);
   void HandOutRows();
   void FindShapes(ShapeTable* shapes);
 
+  std::span<const RowLaw> laws_;
   const MovableBodies* movable_ = nullptr;
-  PairList list_;
+  PairList* list_ = nullptr;
   std::vector<int> pair_of_row_;
   std::vector<int> table_;  ///< open addressing: pair + 1, or 0
   std::vector<int> place_;  ///< problem row -> row of its pair
-  std::vector<int> parent_;
-  std::vector<simd::RowShape> row_shapes_;
   std::vector<simd::RowShape> scratch_;
 };
 

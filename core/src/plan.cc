@@ -33,14 +33,14 @@ bool Shares(const simd::PairBlock& block, int a, int b) {
 
 }  // namespace
 
-bool Plan::Make(const ContactProblem& problem, std::span<const double> impulses,
-                const MovableBodies& movable, double omega) {
-  if (!pair_finder_.Find(problem, impulses, movable, omega, &shapes_)) return false;
-  colouring_.Update(problem.bodies, list().pairs);
-  FindIslands(static_cast<int>(problem.bodies.size()));
+bool Plan::Make(std::span<const Body> bodies, std::span<const RowLaw> laws,
+                const MovableBodies& movable) {
+  if (!pair_finder_.Find(laws, movable, &shapes_, &list_)) return false;
+  colouring_.Update(bodies, list_.pairs);
+  FindIslands(static_cast<int>(bodies.size()));
   FindGroups();
   SortPairs();
-  GiveSlots(problem.bodies.size());
+  GiveSlots(bodies.size());
   FillBlocks();
   FindStages();
   return true;
@@ -48,7 +48,7 @@ bool Plan::Make(const ContactProblem& problem, std::span<const double> impulses,
 
 void Plan::FindIslands(int bodies) {
   island_finder_.Start(bodies);
-  for (const Pair& pair : list().pairs) island_finder_.Join(pair.a, pair.b);
+  for (const Pair& pair : list_.pairs) island_finder_.Join(pair.a, pair.b);
   islands_.assign(island_finder_.Number(), {});
 
   const std::vector<int>& island_of = island_finder_.island_of_body();
@@ -59,10 +59,10 @@ void Plan::FindIslands(int bodies) {
     ++island.bodies;
   }
   // pairs that nothing can move for are an island of their own, the last
-  island_of_pair_.resize(list().pairs.size());
+  island_of_pair_.resize(list_.pairs.size());
   const int attached = static_cast<int>(islands_.size());
-  for (size_t i = 0; i < list().pairs.size(); ++i) {
-    const Pair& pair = list().pairs[i];
+  for (size_t i = 0; i < list_.pairs.size(); ++i) {
+    const Pair& pair = list_.pairs[i];
     const int island = pair.a == kWorld ? attached : island_of[pair.a];
     if (island == static_cast<int>(islands_.size())) islands_.emplace_back();
     islands_[island].rows += pair.rows;
@@ -98,29 +98,21 @@ void Plan::FindGroups() {
   }
 }
 
-template <class Key>
-void Plan::SortBy(int keys, const Key& key) {
-  counts_.assign(keys + 1, 0);
-  for (int pair : order_) ++counts_[key(pair) + 1];
-  for (int k = 0; k < keys; ++k) counts_[k + 1] += counts_[k];
-  scratch_.resize(order_.size());
-  for (int pair : order_) scratch_[counts_[key(pair)]++] = pair;
-  order_.swap(scratch_);
-}
-
 void Plan::SortPairs() {
-  // by group, colour and shape; those that are alike stay in the order of the problem
-  order_.resize(list().pairs.size());
-  for (size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
   constexpr int kForms = 3;
-  const auto shape = [this](int i) {
-    if (colouring_.colours()[i] == Colour::kOverflow) return 0;
-    return list().pairs[i].shape * kForms + static_cast<int>(list().pairs[i].form);
-  };
-  SortBy(shapes_.size() * kForms, shape);
-  SortBy(Colour::kCount, [this](int i) { return colouring_.colours()[i]; });
-  SortBy(static_cast<int>(groups_.size()),
-         [this](int i) { return islands_[island_of_pair_[i]].group; });
+  keys_.resize(list_.pairs.size());
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    const int colour = colouring_.colours()[i];
+    const int shape = list_.pairs[i].shape * kForms + static_cast<int>(list_.pairs[i].form);
+    keys_[i] = {.group = islands_[island_of_pair_[i]].group,
+                .colour = colour,
+                .shape = colour == Colour::kOverflow ? 0 : shape};
+  }
+  pair_order_.Update(keys_, colouring_.before(),
+                     {.groups = static_cast<int>(groups_.size()),
+                      .colours = Colour::kCount,
+                      .shapes = shapes_.size() * kForms});
+  order_.assign(pair_order_.order().begin(), pair_order_.order().end());
 }
 
 int Plan::SlotOf(int body) {
@@ -138,7 +130,7 @@ void Plan::GiveSlots(size_t bodies) {
   body_of_slot_.assign(1, kWorld);
   for (Group& group : groups_) group.slots = 0;
   for (int i : order_) {
-    const Pair& pair = list().pairs[i];
+    const Pair& pair = list_.pairs[i];
     const int before = static_cast<int>(body_of_slot_.size());
     if (pair.a != kWorld) SlotOf(pair.a);
     if (pair.b != kWorld) SlotOf(pair.b);
@@ -150,7 +142,7 @@ void Plan::GiveSlots(size_t bodies) {
 }
 
 simd::PairBlock& Plan::AddBlock(int pair) {
-  const Pair& of = list().pairs[pair];
+  const Pair& of = list_.pairs[pair];
   simd::PairBlock& block = blocks_.emplace_back();
   block = {};
   block.rows = shapes_.rows(of.shape).data();
@@ -166,7 +158,7 @@ simd::PairBlock& Plan::AddBlock(int pair) {
 }
 
 void Plan::AddLane(int pair, simd::PairBlock* block) {
-  const Pair& of = list().pairs[pair];
+  const Pair& of = list_.pairs[pair];
   const int index = static_cast<int>(block - blocks_.data());
   pair_of_lane_[index * kLanes + block->lanes] = pair;
   block->a[block->lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
@@ -191,11 +183,11 @@ void Plan::FillOverflow(size_t begin, size_t end) {
 }
 
 simd::PairBlock* Plan::FindOpenBlock(int index, size_t first_block) {
-  const Pair& pair = list().pairs[index];
+  const Pair& pair = list_.pairs[index];
   const int a = slot_of_body_[pair.a], b = pair.b == kWorld ? 0 : slot_of_body_[pair.b];
   const size_t most = std::min<size_t>(blocks_.size() - first_block, kOpenBlocks);
   for (size_t at = blocks_.size() - most; at < blocks_.size(); ++at) {
-    const Pair& other = list().pairs[pair_of_lane_[at * kLanes]];
+    const Pair& other = list_.pairs[pair_of_lane_[at * kLanes]];
     const bool alike = other.shape == pair.shape && other.form == pair.form;
     if (alike && blocks_[at].lanes < kLanes && !Shares(blocks_[at], a, b)) return &blocks_[at];
   }
@@ -222,7 +214,7 @@ void Plan::FillBlocks() {
 
     // a block ends with its colour, its shape, or full
     for (; of_group(i); ++i) {
-      const Pair& pair = list().pairs[order_[i]];
+      const Pair& pair = list_.pairs[order_[i]];
       const bool same = static_cast<int>(blocks_.size()) > group.first_block &&
                         blocks_.back().lanes < kLanes &&
                         colour_of_block_.back() == colouring_.colours()[order_[i]] &&

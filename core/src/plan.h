@@ -7,7 +7,9 @@
 
 #include "colouring.h"
 #include "islands.h"
+#include "pair_order.h"
 #include "pairs.h"
+#include "row_law.h"
 #include "simd/pair_block.h"
 
 namespace cairn {
@@ -42,24 +44,27 @@ struct Stage {
   int first_unit = 0, units = 0;
 };
 
-/// The order of work, from the structure of the problem and what was planned before; see Colouring.
+/// The order of work, from the structure of the problem and what was planned before: pairs keep
+/// their colours and their order, see Colouring and PairOrder, and only where pairs begin, end or
+/// get other rows does it change.
 class Plan {
  public:
-  /// False if a row is not valid, by ValidateRow(); the plan is then of no use.
+  /// @p laws: of all rows, each valid by ReadLaw(). False if a parent is not valid, by Validate();
+  /// the plan is then of no use.
   /// @pre the bodies are valid
-  [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const double> impulses,
-                          const MovableBodies& movable, double omega);
+  [[nodiscard]] bool Make(std::span<const Body> bodies, std::span<const RowLaw> laws,
+                          const MovableBodies& movable);
 
   std::span<const simd::PairBlock> blocks() const { return blocks_; }
   /// Pair of a lane. @pre lane < blocks()[block].lanes
   const Pair& pair(int block, int lane) const {
-    return list().pairs[pair_of_lane_[block * simd::kLanes + lane]];
+    return list_.pairs[pair_of_lane_[block * simd::kLanes + lane]];
   }
   int island_of(int block, int lane) const {
     return island_of_pair_[pair_of_lane_[block * simd::kLanes + lane]];
   }
   /// Problem rows of a pair.
-  std::span<const int> rows_of(const Pair& pair) const { return list().rows_of(pair); }
+  std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
 
   std::span<const Group> groups() const { return groups_; }
   std::span<const Stage> stages() const { return stages_; }
@@ -75,12 +80,9 @@ class Plan {
   int x_lines() const { return x_lines_; }
 
  private:
-  const PairList& list() const { return pair_finder_.list(); }
   void FindIslands(int bodies);
   void FindGroups();
   void SortPairs();
-  template <class Key>
-  void SortBy(int keys, const Key& key);
   void FillBlocks();
   void FillOverflow(size_t begin, size_t end);
   simd::PairBlock* FindOpenBlock(int pair, size_t first_block);
@@ -95,6 +97,7 @@ class Plan {
 
   ShapeTable shapes_;
   PairFinder pair_finder_;
+  PairList list_;
   Colouring colouring_;
   IslandFinder island_finder_;
 
@@ -103,7 +106,9 @@ class Plan {
   std::vector<int> island_of_pair_;
   std::vector<Group> groups_;
 
-  std::vector<int> order_, scratch_, counts_;  ///< pairs in the order of a sweep
+  PairOrder pair_order_;
+  std::vector<PairKey> keys_;
+  std::vector<int> order_;  ///< pairs in the order of a sweep
   std::vector<simd::PairBlock> blocks_;
   std::vector<int> pair_of_lane_;
   std::vector<int> colour_of_block_;

@@ -155,9 +155,16 @@ MovableBodies MovableOf(const Scene& scene) {
   return movable;
 }
 
+std::vector<RowLaw> LawsOf(const Scene& scene, double omega) {
+  std::vector<RowLaw> laws(scene.rows.size());
+  for (size_t i = 0; i < laws.size(); ++i) {
+    EXPECT_TRUE(ReadLaw(scene.problem(), static_cast<int>(i), 0, omega, &laws[i])) << i;
+  }
+  return laws;
+}
+
 void MakePlan(const Scene& scene, double omega, Plan* plan) {
-  const std::vector<double> start(scene.rows.size());
-  EXPECT_TRUE(plan->Make(scene.problem(), start, MovableOf(scene), omega));
+  EXPECT_TRUE(plan->Make(scene.bodies, LawsOf(scene, omega), MovableOf(scene)));
 }
 
 Settings Coloured(int sweeps) {

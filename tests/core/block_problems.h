@@ -30,6 +30,8 @@ Scene WithEveryLaw(Scene scene, std::uint64_t seed);
 
 MovableBodies MovableOf(const Scene& scene);
 /// @pre the scene is valid
+std::vector<RowLaw> LawsOf(const Scene& scene, double omega);
+/// @pre the scene is valid
 void MakePlan(const Scene& scene, double omega, Plan* plan);
 
 /// So many sweeps on blocks, without steps or a look at the residual.

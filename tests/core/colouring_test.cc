@@ -43,6 +43,8 @@ std::vector<int> ColoursOf(Colouring* colouring, const std::vector<Body>& bodies
   return {colouring->colours().begin(), colouring->colours().end()};
 }
 
+std::vector<int> Ints(std::span<const int> numbers) { return {numbers.begin(), numbers.end()}; }
+
 /// No two pairs of one colour share a body, and each colour is one of the kind of its pair.
 void ExpectApart(const Pairs& pairs, const std::vector<int>& colours) {
   ASSERT_EQ(pairs.size(), colours.size());
@@ -206,6 +208,30 @@ TEST(Colours, OfBodiesWithoutNamesGoByTheirPlace) {
   Colouring colouring;
   (void)ColoursOf(&colouring, bodies, {Contact(0, 1), Contact(1, 2)});
   EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(2, 1)}).back(), FirstOf(2) + 1);
+}
+
+TEST(Colouring, SaysWhereEachPairWasBefore) {
+  const std::vector<Body> bodies = Named(6);
+  Colouring colouring;
+  colouring.Update(bodies, Pairs{Contact(0, 1), Contact(1, 2), Joint(1, 2), Contact(3, kWorld)});
+  EXPECT_EQ(std::vector<int>(4, -1), Ints(colouring.before()));
+  colouring.Update(bodies, Pairs{Contact(3, kWorld), Contact(4, 5), Contact(2, 1), Joint(1, 2)});
+  EXPECT_EQ((std::vector<int>{3, -1, 1, 2}), Ints(colouring.before()));
+}
+
+TEST(Colouring, FindsAPlaceOnceEvenWhereBodiesShareAName) {
+  std::vector<Body> bodies = Named(4);
+  bodies[2].id = bodies[0].id;
+  const Pairs pairs = {Contact(0, 1), Contact(2, 1), Contact(0, 3), Contact(2, 3)};
+  Colouring colouring;
+  for (int call = 0; call < 3; ++call) {
+    const std::vector<int> colours = ColoursOf(&colouring, bodies, pairs);
+    ExpectApart(pairs, colours);
+    std::vector<int> before = Ints(colouring.before());
+    std::erase(before, -1);
+    std::sort(before.begin(), before.end());
+    EXPECT_EQ(std::adjacent_find(before.begin(), before.end()), before.end());
+  }
 }
 
 }  // namespace

@@ -26,10 +26,8 @@ struct Found {
 
   explicit Found(const Scene& scene, double omega = 1) { Add(scene, omega); }
   void Add(const Scene& scene, double omega = 1) {
-    const std::vector<double> start(scene.rows.size());
     PairFinder finder;
-    EXPECT_TRUE(finder.Find(scene.problem(), start, test::MovableOf(scene), omega, &shapes));
-    list = finder.list();
+    EXPECT_TRUE(finder.Find(test::LawsOf(scene, omega), test::MovableOf(scene), &shapes, &list));
   }
   std::vector<int> rows(int pair) const {
     const auto rows = list.rows_of(list.pairs[pair]);
@@ -204,27 +202,25 @@ TEST(Pairs, OfRowsThatNothingMovesForBelongToTheWorld) {
   EXPECT_THAT(found.rows(0), ElementsAre(0, 1, 2, 6));
 }
 
-TEST(ShapeOf, ReadsTheLawOfARow) {
-  Row row;
-  row.linear_a = {1, 0, 0};
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{});
-  row.lo = 0;
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{.bound = RowBound::kPush});
-  row.hi = 5;
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{.bound = RowBound::kOwn});
-  row.lo = -kInfinity;
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{.bound = RowBound::kOwn});
-  row.parent = 0;
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{.bound = RowBound::kCutFriction});
-  row.hi = kInfinity;
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{.bound = RowBound::kFriction});
-  row = Row{};
-  EXPECT_EQ(ShapeOf(row, 1), RowShape{.angular = true});
-  row.compliance = 1e-300;
-  row.max_sweeps = 3;
-  row.relaxation = 0.5;
-  const RowShape expected{.soft = true, .relaxed = true, .angular = true, .max_sweeps = 3};
-  EXPECT_EQ(ShapeOf(row, 1), expected);
+TEST(Pairs, AreNotFoundWhereAParentMayNotBeOne) {
+  Scene scene = Boxes(3);
+  AddTouch(&scene, 0, 1);  // rows 0 to 2
+  AddTouch(&scene, 0, 2);  // 3 to 5
+  const auto found = [&scene](int parent) {
+    scene.rows[4].parent = parent;
+    PairFinder finder;
+    ShapeTable shapes;
+    PairList list;
+    return finder.Find(test::LawsOf(scene, 1), test::MovableOf(scene), &shapes, &list);
+  };
+  EXPECT_TRUE(found(3));
+  EXPECT_FALSE(found(0)) << "other bodies";
+  EXPECT_FALSE(found(4)) << "itself";
+  EXPECT_FALSE(found(5)) << "a later one, which has one itself";
+  EXPECT_FALSE(found(6)) << "there is none";
+  EXPECT_FALSE(found(-2));
+  scene.rows[5].parent = 4;
+  EXPECT_FALSE(found(3)) << "a parent has none";
 }
 
 TEST(Pairs, HoldEveryRowOnceInOrderAndFrictionWithItsParent) {

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace cairn {
+
+/// The place of a pair in a sweep: by group, then colour, then what its rows look like.
+struct PairKey {
+  int group, colour, shape;
+  friend auto operator<=>(const PairKey&, const PairKey&) = default;
+};
+
+/// How many there are of each part of a key.
+struct PairKeyCounts {
+  int groups, colours, shapes;
+};
+
+/// Pairs in the order of their keys, kept from call to call: a pair that begins, or whose key has
+/// changed, goes behind all others of its key, and no other pair is touched. Where too many have
+/// changed all are sorted, and pairs of one key are in the order of the list.
+class PairOrder {
+ public:
+  /// @p before: where each pair was in the list of the last call, -1 if it is new; each place at
+  /// most once.
+  void Update(std::span<const PairKey> keys, std::span<const int> before,
+              const PairKeyCounts& counts);
+  /// Places in the list.
+  std::span<const int> order() const { return order_; }
+
+ private:
+  void SortAll(const PairKeyCounts& counts);
+  void MoveSome();
+  template <class Part>
+  void SortBy(int values, const Part& part);
+
+  std::vector<PairKey> keys_, last_keys_;
+  std::vector<int> order_, scratch_, counts_;
+  std::vector<int> moved_;  ///< places in the list, of pairs that are new or have another key
+  std::vector<int> kept_;   ///< by place in the last list: that in the new one, -1 if not kept
+};
+
+}  // namespace cairn
