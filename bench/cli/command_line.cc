@@ -47,8 +47,8 @@ void CompleteCommand(const std::vector<std::string>& commands,
   }
 }
 
-std::string WithoutPaths(const std::vector<std::string>& arguments) {
-  std::string text = "cairn";
+std::string WithoutPaths(std::string_view program, const std::vector<std::string>& arguments) {
+  std::string text(program);
   for (std::string word : arguments) {
     while (word.size() > 1 && word.ends_with('/')) word.pop_back();
     const size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;

@@ -18,8 +18,8 @@ std::string TakePrecision(std::vector<std::string>* arguments);
 /// @throws Failure (kUsage) if it is none of `commands`.
 void CompleteCommand(const std::vector<std::string>& commands, std::vector<std::string>* arguments);
 
-/// The arguments as they can be shown to others: of paths, only the last part.
-std::string WithoutPaths(const std::vector<std::string>& arguments);
+/// A program and its arguments as they can be shown to others: of paths, only the last part.
+std::string WithoutPaths(std::string_view program, const std::vector<std::string>& arguments);
 
 /// A whole number. @throws Failure (kUsage) if it is none, or not in [least, most]; `meaning` says
 /// in the message what the option is.

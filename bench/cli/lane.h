@@ -30,6 +30,7 @@ class Lane {
   const Effort& effort() const { return effort_; }
   const std::string& label() const { return result_.label; }
   const bench::World& world() const { return world_; }
+  const bench::Scene& scene() const { return *scene_; }
   /// Settings of the world before the solver changed them.
   const btContactSolverInfo& defaults() const { return defaults_; }
 

@@ -110,7 +110,7 @@ int Main(Arguments arguments) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     RefuseUnknown(*command.app);
-    return command.action(WithoutPaths(typed));
+    return command.action(WithoutPaths("cairn", typed));
   }
   return kUsage;
 }

@@ -12,12 +12,14 @@ bool IsFinite(const btVector3& v) {
   return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
 }
 
+bool IsFinite(const btRigidBody& body) {
+  return IsFinite(body.getLinearVelocity()) && IsFinite(body.getAngularVelocity()) &&
+         IsFinite(body.getWorldTransform().getOrigin());
+}
+
 /// What is wrong with the body; empty if nothing is.
 std::string Fault(const btRigidBody& body) {
-  if (!IsFinite(body.getLinearVelocity()) || !IsFinite(body.getAngularVelocity()) ||
-      !IsFinite(body.getWorldTransform().getOrigin())) {
-    return "a velocity is not a number";
-  }
+  if (!IsFinite(body)) return "a velocity is not a number";
   const btScalar speed = body.getLinearVelocity().length();
   if (speed <= WatchedSolver::kMostSpeed) return "";
   return fmt::format("exploded: a body moves at {:.1e} m/s", speed);
@@ -37,7 +39,10 @@ void WatchedSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* deb
   InstrumentedSolver::allSolved(info, debug_drawer);
   if (world_ == nullptr || !failure_.empty()) return;
   const btAlignedObjectArray<btRigidBody*>& bodies = world_->getNonStaticRigidBodies();
-  for (int i = 0; i < bodies.size() && failure_.empty(); ++i) failure_ = Fault(*bodies[i]);
+  for (int i = 0; i < bodies.size() && failure_.empty(); ++i) {
+    failure_ = Fault(*bodies[i]);
+    not_a_number_ = !IsFinite(*bodies[i]);
+  }
   if (failure_.empty()) return;
   for (int i = 0; i < bodies.size(); ++i) Stop(bodies[i]);
 }

@@ -22,12 +22,15 @@ class WatchedSolver : public bench::InstrumentedSolver {
   void Watch(btDiscreteDynamicsWorld* world) { world_ = world; }
   /// What was noticed; empty if nothing.
   const std::string& failure() const { return failure_; }
+  /// Whether that was a position or velocity that is not a finite number.
+  bool not_a_number() const { return not_a_number_; }
 
   void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override;
 
  private:
   btDiscreteDynamicsWorld* world_ = nullptr;
   std::string failure_;
+  bool not_a_number_ = false;
 };
 
 }  // namespace cairn::cli

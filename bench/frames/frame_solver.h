@@ -27,6 +27,7 @@ class FrameSolver {
   Settings& settings() { return solver_.settings(); }
   const Report& report() const { return report_; }
   const std::vector<double>& impulses() const { return impulses_; }
+  const std::vector<Velocity>& velocities() const { return velocities_; }
 
  private:
   Solver solver_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "frames/scene_run.h"
 
-#include <btBulletDynamicsCommon.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -15,8 +13,6 @@
 #include <tuple>
 #include <utility>
 #include <vector>
-
-#include "cairn/bullet/group_rows.h"
 
 namespace cairn::frames {
 namespace {
@@ -33,39 +29,6 @@ std::set<Pair> PairsOf(const bench::ContactFrame& frame) {
 }
 
 }  // namespace
-
-class SceneRun::Recorder : public btSequentialImpulseConstraintSolver {
- public:
-  void RecordTo(bench::ContactFrame* frame) { frame_ = frame; }
-
- protected:
-  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int num_bodies,
-                                             btPersistentManifold** manifolds, int num_manifolds,
-                                             btTypedConstraint** constraints, int num_constraints,
-                                             const btContactSolverInfo& info,
-                                             btIDebugDraw* debug_drawer) override {
-    if (frame_ != nullptr) Record(info);
-    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
-        bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
-        debug_drawer);
-  }
-
- private:
-  void Record(const btContactSolverInfo& info) {
-    rows_.Read({&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
-                &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
-                &m_tmpSolverContactRollingFrictionConstraintPool},
-               info, bullet::SweepLimits::kNone);
-    const ContactProblem problem = rows_.problem();
-    frame_->bodies.assign(problem.bodies.begin(), problem.bodies.end());
-    frame_->rows.assign(problem.rows.begin(), problem.rows.end());
-    frame_->impulses.assign(rows_.impulses().begin(), rows_.impulses().end());
-    frame_ = nullptr;
-  }
-
-  bench::ContactFrame* frame_ = nullptr;
-  bullet::GroupRows rows_;
-};
 
 SceneChoice ParseScene(const std::string& text) {
   SceneChoice choice;
@@ -88,7 +51,7 @@ SceneChoice ParseScene(const std::string& text) {
 }
 
 SceneRun::SceneRun(const SceneChoice& choice)
-    : recorder_(std::make_unique<Recorder>()),
+    : recorder_(std::make_unique<bench::RowRecorder>()),
       world_(std::make_unique<bench::World>(recorder_.get())),
       scene_(bench::Make(*bench::FindScene(choice.name))) {
   scene_->Build(world_.get(), {.size = choice.size});

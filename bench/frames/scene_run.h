@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "measure/row_recorder.h"
 #include "rigid/contact_frame.h"
 #include "scenes/scene.h"
 #include "scenes/world.h"
@@ -34,11 +35,9 @@ class SceneRun {
   bench::ContactFrame Next();
 
  private:
-  class Recorder;
-
   void Step();
 
-  std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<bench::RowRecorder> recorder_;
   std::unique_ptr<bench::World> world_;
   std::unique_ptr<bench::Scene> scene_;
   int frame_ = 0;

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "cairn/contact_problem.h"
+#include "measure/substep.h"
+#include "rigid/contact_frame.h"
+
+namespace cairn::accuracy {
+
+/// Where the time of a solver of Bullet's went, CPU time of the thread [ms].
+struct BulletTime {
+  double set_up = 0;      ///< From contacts and joints to rows.
+  double split = 0;       ///< Pushing bodies apart, which changes no velocity.
+  double iterations = 0;  ///< What Cairn's core replaces.
+  double finish = 0;      ///< Back into bodies, contacts and joints.
+
+  double total() const { return set_up + split + iterations + finish; }
+};
+
+/// Bullet's stock solver, btSequentialImpulseConstraintSolver, on a captured substep.
+class BulletTrial {
+ public:
+  BulletTrial();
+  ~BulletTrial();
+
+  /// Solves the substep once, from its captured state. All groups are one.
+  BulletTime Solve(const bench::Substep& substep, const btContactSolverInfo& info, int iterations);
+  /// The rows of the substep with the impulses of Bullet's warm start, by a Solve() of their own.
+  /// Empty if nothing touches.
+  bench::ContactFrame Rows(const bench::Substep& substep, const btContactSolverInfo& info);
+
+  /// Velocity changes of the warm start, which is iteration 0, and after each iteration from 1 on;
+  /// false ends it.
+  using Follower = std::function<bool(int iteration, std::span<const Velocity> velocities)>;
+  /// Solves the substep with at most that many iterations, and shows them.
+  void Follow(const bench::Substep& substep, const btContactSolverInfo& info, int most,
+              Follower follower);
+
+ private:
+  class Solver;
+
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace cairn::accuracy

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// How accurate Cairn is at game speed: on given states, in closed loop, and on a grid of extremes.
+#include <fmt/format.h>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "accuracy/command.h"
+#include "cli/command_line.h"
+#include "cli/failure.h"
+
+namespace cairn::accuracy {
+namespace {
+
+int Main(int count, char** arguments) {
+  CLI::App app("How accurate Cairn is at game speed, against Bullet and against sweeps alone.",
+               "cairn_accuracy");
+  app.require_subcommand(1);
+  const cli::Command commands[] = {AddStatesCommand(&app), AddLoopCommand(&app),
+                                   AddGridCommand(&app)};
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? cli::kFine : cli::kUsage;
+  }
+  const std::string typed = cli::WithoutPaths(app.get_name(), {arguments + 1, arguments + count});
+  for (const cli::Command& command : commands) {
+    if (command.app->parsed()) return command.action(typed);
+  }
+  return cli::kUsage;
+}
+
+}  // namespace
+}  // namespace cairn::accuracy
+
+int main(int count, char** arguments) {
+  try {
+    return cairn::accuracy::Main(count, arguments);
+  } catch (const cairn::cli::Failure& failure) {
+    fmt::print(stderr, "cairn_accuracy: {}\n", failure.what());
+    return failure.code();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cairn_accuracy: {}\n", error.what());
+    return cairn::cli::kCheckFailed;
+  }
+}
