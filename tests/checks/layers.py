@@ -17,6 +17,7 @@ MAY_INCLUDE = {
     "bullet_adapter/include": ("bullet_adapter/include/", "core/include/"),
     "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
     "bench": ("bench/", "bullet_adapter/include/", "core/include/", "simd/"),
+    "bench/micro": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
     "examples": ("examples/", "bullet_adapter/include/", "core/include/"),
     "tests": ("",),
 }
@@ -32,6 +33,7 @@ THIRD_PARTIES = {
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
     "Siconos": (r"siconos/", r"bench/cli/siconos_"),
+    "CHOLMOD": (r"suitesparse/", r"bench/micro/cholmod_"),
     "Google Benchmark": (r"benchmark/", r"bench/micro/"),
     "test libraries": (r"(gtest|gmock|rapidcheck)(/|\.h)", r"tests/"),
 }

@@ -54,10 +54,8 @@ void BodySystem::Prepare(const PackedIsland& island) {
 }
 
 bool BodySystem::Factorise(const PackedIsland& island, std::span<const double> weights) {
-  for (int body = 0; body < bodies_; ++body) factor_.diagonal(body).setIdentity();
-  for (int pair = 0; pair < static_cast<int>(pairs_.size()); ++pair) {
-    factor_.upper(pair).setZero();
-  }
+  factor_.SetZero();
+  for (int body = 0; body < bodies_; ++body) factor_.diagonal(body).diagonal().setOnes();
 
   for (size_t i = 0; i < island.rows.size(); ++i) {
     if (weights[i] == 0) continue;

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+#include "subspace/factor_pattern.h"
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "subspace/eigen_cholesky.h"
+
+namespace cairn {
+namespace {
+
+/// Neighbours of every node, ascending: what a sparse matrix without numbers is.
+struct Graph {
+  std::vector<int> begin, neighbours;
+
+  std::span<const int> of(int node) const {
+    return std::span(neighbours).subspan(begin[node], begin[node + 1] - begin[node]);
+  }
+};
+
+/// Both directions of every pair.
+Graph MakeGraph(int nodes, std::span<const NodePair> pairs) {
+  Graph graph;
+  graph.begin.assign(nodes + 1, 0);
+  for (const auto& [i, j] : pairs) {
+    ++graph.begin[i + 1];
+    ++graph.begin[j + 1];
+  }
+  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
+  graph.neighbours.resize(2 * pairs.size());
+  std::vector<int> end(graph.begin.begin(), graph.begin.end() - 1);
+  // pairs ascend: first the smaller neighbours of each node, then the larger ones
+  for (const auto& [i, j] : pairs) graph.neighbours[end[j]++] = i;
+  for (const auto& [i, j] : pairs) graph.neighbours[end[i]++] = j;
+  return graph;
+}
+
+/// The nodes that are connected, ascending; one entry for each part of the graph.
+std::vector<std::vector<int>> Components(const Graph& graph) {
+  const int nodes = static_cast<int>(graph.begin.size()) - 1;
+  std::vector<char> seen(nodes, 0);
+  std::vector<std::vector<int>> components;
+  for (int first = 0; first < nodes; ++first) {
+    if (seen[first] != 0) continue;
+    std::vector<int>& component = components.emplace_back(1, first);
+    seen[first] = 1;
+    for (size_t k = 0; k < component.size(); ++k) {
+      for (int neighbour : graph.of(component[k])) {
+        if (std::exchange(seen[neighbour], 1) == 0) component.push_back(neighbour);
+      }
+    }
+    std::sort(component.begin(), component.end());
+  }
+  return components;
+}
+
+/// Of one component; @p local: room for one entry a node.
+std::vector<int> OrderOf(const Graph& graph, std::span<const int> component,
+                         std::vector<int>* local) {
+  const int nodes = static_cast<int>(component.size());
+  int entries = nodes;
+  for (int k = 0; k < nodes; ++k) {
+    (*local)[component[k]] = k;
+    entries += static_cast<int>(graph.of(component[k]).size());
+  }
+  Eigen::SparseMatrix<double> matrix(nodes, nodes);
+  matrix.resizeNonZeros(entries);
+  int entry = 0;
+  for (int j = 0; j < nodes; ++j) {
+    matrix.outerIndexPtr()[j] = entry;
+    const auto around = graph.of(component[j]);
+    const auto above = std::lower_bound(around.begin(), around.end(), component[j]);
+    for (auto i = around.begin(); i != above; ++i) matrix.innerIndexPtr()[entry++] = (*local)[*i];
+    matrix.innerIndexPtr()[entry++] = j;
+    for (auto i = above; i != around.end(); ++i) matrix.innerIndexPtr()[entry++] = (*local)[*i];
+  }
+  matrix.outerIndexPtr()[nodes] = entry;
+  std::fill_n(matrix.valuePtr(), entry, 1.0);
+  return MinimumDegreeOrder(matrix);
+}
+
+/// Minimum degree, of each component as if it were alone: what is connected to nothing else gets
+/// the same bits whatever is beside it.
+std::vector<int> Order(const Graph& graph) {
+  std::vector<int> order, local(graph.begin.size());
+  for (const std::vector<int>& component : Components(graph)) {
+    if (component.size() <= 2) {
+      order.insert(order.end(), component.begin(), component.end());
+      continue;
+    }
+    for (int k : OrderOf(graph, component, &local)) order.push_back(component[k]);
+  }
+  return order;
+}
+
+/// For each node the first that it brings fill to. @p order, @p position: of elimination.
+std::vector<int> EliminationTree(const Graph& graph, std::span<const int> order,
+                                 std::span<const int> position) {
+  const int nodes = static_cast<int>(order.size());
+  std::vector<int> parent(nodes, -1), ancestor(nodes, -1);
+  for (int k = 0; k < nodes; ++k) {
+    for (int neighbour : graph.of(order[k])) {
+      for (int i = position[neighbour]; i != -1 && i < k;) {
+        const int next = std::exchange(ancestor[i], k);
+        if (next == -1) parent[i] = k;
+        i = next;
+      }
+    }
+  }
+  return parent;
+}
+
+/// Children before their parent, those of one parent next to each other with all that is below
+/// them. @p parent: larger than its children.
+std::vector<int> Postorder(std::span<const int> parent) {
+  const int nodes = static_cast<int>(parent.size());
+  // places are given out from the end: a node's are the last of what its parent has left
+  std::vector<int> below(nodes, 1), end(nodes), order(nodes);
+  for (int i = 0; i < nodes; ++i) {
+    if (parent[i] >= 0) below[parent[i]] += below[i];
+  }
+  int free = nodes;
+  for (int i = nodes - 1; i >= 0; --i) {
+    int& available = parent[i] >= 0 ? end[parent[i]] : free;
+    order[available - 1] = i;
+    end[i] = available - 1;
+    available -= below[i];
+  }
+  return order;
+}
+
+std::vector<int> Inverse(std::span<const int> order) {
+  std::vector<int> position(order.size());
+  for (size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<int>(k);
+  return position;
+}
+
+/// Entries of each column of the factor, with the diagonal: a row reaches all ancestors, up to
+/// itself, of the nodes that it has entries for.
+std::vector<int> ColumnCounts(const Graph& graph, std::span<const int> order,
+                              std::span<const int> position, std::span<const int> parent) {
+  const int nodes = static_cast<int>(order.size());
+  std::vector<int> counts(nodes, 1), reached(nodes, -1);
+  for (int k = 0; k < nodes; ++k) {
+    reached[k] = k;
+    for (int neighbour : graph.of(order[k])) {
+      for (int i = position[neighbour]; i < k && reached[i] != k; i = parent[i]) {
+        reached[i] = k;
+        ++counts[i];
+      }
+    }
+  }
+  return counts;
+}
+
+/// Nodes that are eliminated together, as they are joined.
+struct Group {
+  int pivots, rows;  ///< rows with those of the pivots
+  double zeros;      ///< entries of its columns that joining has added
+
+  double entries() const { return pivots * (rows - 0.5 * (pivots - 1)); }
+};
+
+/// A child of the group, eliminated with it.
+Group Joined(const Group& child, const Group& group) {
+  Group both{child.pivots + group.pivots, child.pivots + group.rows, 0};
+  both.zeros = child.zeros + group.zeros + both.entries() - child.entries() - group.entries();
+  return both;
+}
+
+/// Small fronts run slower, so zeros are worth more there.
+bool WorthJoining(const Group& both, int node_size) {
+  const int columns = both.pivots * node_size;
+  const double most = columns <= 24 ? 0.18 : columns <= 48 ? 0.10 : columns <= 96 ? 0.06 : 0.015;
+  return both.zeros <= most * both.entries();
+}
+
+/// The group of each node, by the last of its nodes.
+std::vector<int> JoinNodes(std::span<const int> parent, std::span<const int> counts,
+                           int node_size) {
+  const int nodes = static_cast<int>(parent.size());
+  std::vector<Group> groups(nodes);
+  std::vector<int> joined_to(nodes);
+  std::vector<int> first_child(nodes, -1), next_sibling(nodes, -1);
+  std::vector<std::pair<double, int>> candidates;
+  for (int i = nodes - 1; i >= 0; --i) {
+    if (parent[i] < 0) continue;
+    next_sibling[i] = first_child[parent[i]];
+    first_child[parent[i]] = i;
+  }
+  for (int i = 0; i < nodes; ++i) {
+    groups[i] = {1, counts[i], 0};
+    joined_to[i] = i;
+    candidates.clear();
+    for (int child = first_child[i]; child >= 0; child = next_sibling[child]) {
+      candidates.emplace_back(Joined(groups[child], groups[i]).zeros, child);
+    }
+    std::sort(candidates.begin(), candidates.end());
+    for (const auto& [zeros, child] : candidates) {
+      const Group both = Joined(groups[child], groups[i]);
+      if (!WorthJoining(both, node_size)) continue;
+      groups[i] = both;
+      joined_to[child] = i;
+    }
+  }
+  for (int i = nodes - 1; i >= 0; --i) joined_to[i] = joined_to[joined_to[i]];
+  return joined_to;
+}
+
+}  // namespace
+
+/// What the steps of one analysis leave for the next.
+class FactorPattern::Builder {
+ public:
+  Builder(FactorPattern* pattern, int nodes, std::span<const NodePair> pairs)
+      : pattern_(*pattern), graph_(MakeGraph(nodes, pairs)) {}
+
+  void Build() {
+    OrderNodes();
+    CountEntries();
+    MakeFronts();
+    FindRows();
+    FindChildren();
+  }
+
+ private:
+  /// Minimum degree, then postorder: the same fill, and groups are close together.
+  void OrderNodes() {
+    const std::vector<int> chosen = Order(graph_);
+    const std::vector<int> parent = EliminationTree(graph_, chosen, Inverse(chosen));
+    Reorder(chosen, parent, Postorder(parent));
+  }
+
+  void Reorder(std::span<const int> before, std::span<const int> parent,
+               std::span<const int> order) {
+    const std::vector<int> place = Inverse(order);
+    order_.resize(order.size());
+    parent_.resize(order.size());
+    for (size_t k = 0; k < order.size(); ++k) {
+      order_[k] = before[order[k]];
+      parent_[k] = parent[order[k]] >= 0 ? place[parent[order[k]]] : -1;
+    }
+    pattern_.position_ = Inverse(order_);
+  }
+
+  void CountEntries() {
+    counts_ = ColumnCounts(graph_, order_, pattern_.position_, parent_);
+    pattern_.flops_ = pattern_.nonzeros_ = 0;
+    for (int count : counts_) {
+      for (int k = 0; k < pattern_.node_size_; ++k) {
+        const double below = static_cast<double>(count) * pattern_.node_size_ - k;
+        pattern_.nonzeros_ += below;
+        pattern_.flops_ += below * below;
+      }
+    }
+  }
+
+  /// Groups in the order of their last nodes, which is a postorder of theirs, and the nodes of a
+  /// group as they were.
+  void MakeFronts() {
+    const int nodes = static_cast<int>(order_.size());
+    const std::vector<int> group = JoinNodes(parent_, counts_, pattern_.node_size_);
+    std::vector<int> front_of_group(nodes, -1);
+    pattern_.fronts_.clear();
+    for (int i = 0; i < nodes; ++i) {
+      if (group[i] != i) continue;
+      front_of_group[i] = static_cast<int>(pattern_.fronts_.size());
+      pattern_.fronts_.push_back({});
+    }
+    for (int i = 0; i < nodes; ++i) ++pattern_.fronts_[front_of_group[group[i]]].pivots;
+    int first = 0;
+    for (Front& front : pattern_.fronts_) {
+      front.first = first;
+      first += front.pivots;
+    }
+    std::vector<int> next, order(nodes);
+    for (const Front& front : pattern_.fronts_) next.push_back(front.first);
+    pattern_.front_of_.resize(nodes);
+    for (int i = 0; i < nodes; ++i) {
+      const int front = front_of_group[group[i]];
+      order[next[front]] = i;
+      pattern_.front_of_[next[front]++] = front;
+    }
+    Reorder(std::vector<int>(order_), std::vector<int>(parent_), order);
+  }
+
+  /// What pivots and children have below the pivots.
+  void FindRows() {
+    std::vector<int> seen(order_.size(), -1);
+    std::vector<int>& rows = pattern_.rows_;
+    rows.clear();
+    const int fronts = static_cast<int>(pattern_.fronts_.size());
+    std::vector<int> first_child(fronts, -1), next_sibling(fronts, -1);
+    for (int f = 0; f < fronts; ++f) {
+      Front& front = pattern_.fronts_[f];
+      const int begin = static_cast<int>(rows.size()), end = front.first + front.pivots;
+      const auto add = [&](int row) {
+        if (row < end || std::exchange(seen[row], f) == f) return;
+        rows.push_back(row);
+      };
+      for (int i = front.first; i < end; ++i) {
+        for (int neighbour : graph_.of(order_[i])) add(pattern_.position_[neighbour]);
+      }
+      for (int child = first_child[f]; child >= 0; child = next_sibling[child]) {
+        const Front& below = pattern_.fronts_[child];
+        for (int k = below.rows_begin; k < below.rows_end; ++k) add(rows[k]);
+      }
+      std::sort(rows.begin() + begin, rows.end());
+      front.rows_begin = begin;
+      front.rows_end = static_cast<int>(rows.size());
+      front.parent = begin < front.rows_end ? pattern_.front_of_[rows[begin]] : -1;
+      if (front.parent < 0) continue;
+      next_sibling[f] = first_child[front.parent];
+      first_child[front.parent] = f;
+    }
+  }
+
+  void FindChildren() {
+    std::vector<Front>& fronts = pattern_.fronts_;
+    for (Front& front : fronts) front.children_begin = front.children_end = 0;
+    for (const Front& front : fronts) {
+      if (front.parent >= 0) ++fronts[front.parent].children_end;
+    }
+    int begin = 0;
+    for (Front& front : fronts) {
+      const int count = front.children_end;
+      front.children_begin = front.children_end = begin;
+      begin += count;
+    }
+    pattern_.children_.resize(begin);
+    for (int f = 0; f < static_cast<int>(fronts.size()); ++f) {
+      if (fronts[f].parent < 0) continue;
+      pattern_.children_[fronts[fronts[f].parent].children_end++] = f;
+    }
+  }
+
+  FactorPattern& pattern_;
+  Graph graph_;
+  std::vector<int> order_, parent_, counts_;  ///< by position
+};
+
+void FactorPattern::Analyse(int nodes, int node_size, std::span<const NodePair> pairs) {
+  node_size_ = node_size;
+  Builder(this, nodes, pairs).Build();
+}
+
+double FactorPattern::flops(const Front& front) const {
+  const double pivots = static_cast<double>(front.pivots) * node_size_;
+  const double longest = pivots + static_cast<double>(rows(front).size()) * node_size_;
+  // sum of the squares of longest, longest - 1 ...
+  const auto squares = [](double n) { return n * (n + 1) * (2 * n + 1) / 6; };
+  return squares(longest) - squares(longest - pivots);
+}
+
+}  // namespace cairn
