@@ -8,8 +8,15 @@ namespace cairn {
 namespace {
 
 /// Sweeps between two looks at how far the islands have come. The first look is after one sweep:
-/// what rests need not be swept again.
+/// what rests need not be swept again. The second is where steps begin to watch what sweeps do.
 constexpr int kMostSweepsUnseen = 8;
+constexpr int kMarkedSweep = 3;
+
+int UnseenAfter(int sweeps) {
+  if (sweeps == 0) return 1;
+  return sweeps < kMarkedSweep ? kMarkedSweep - sweeps : kMostSweepsUnseen;
+}
+
 /// An island is measured when its last sweep saw errors of at most so many tolerances: they are
 /// those of states on the way, not of the last one.
 constexpr double kNearTolerance = 2;
@@ -25,11 +32,16 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   frame_ = frame;
   meter_ = meter;
   sweeps_ = &sweeps;
-  steps_.Begin(problem, settings, frame, memories);
+  // a budget is shared by steps and sweeps: frames with steps and frames without are compared
+  const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
+  watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
+  steps_.Begin(problem, settings, frame, memories, crew,
+               asked && (!watches_ || memories->choice().steps()));
   Begin();
   while (Active()) Leg();
   meter_->Begin();
   Finish();
+  if (watches_) Learn(&memories->choice());
   FillReport(report);
 }
 
@@ -106,9 +118,10 @@ void BlockCycle::Leg() {
   const int before = SweepsMade();
   const int end = before + std::min(settings_->k_gs, settings_->max_sweeps - before);
   for (bool whole = true; whole && Active() && SweepsMade() < end;) {
-    const int unseen = SweepsMade() == 0 ? 1 : kMostSweepsUnseen;
+    const int unseen = UnseenAfter(SweepsMade());
     whole = sweeps_->Sweep(std::min(end - SweepsMade(), unseen), made_);
     if (whole) See(made_);
+    if (whole && SweepsMade() == kMarkedSweep) MarkMerits();
     if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
     Judge(whole);
   }
@@ -123,7 +136,8 @@ void BlockCycle::See(std::span<const GroupSweeps> groups) {
     if (groups[g].active) sweeps_->ErrorsOfIslands(plan.groups()[g], after_);
   }
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!Done(i) && groups[plan.islands()[i].group].active) states_[i].seen = after_[i];
+    if (Done(i) || !groups[plan.islands()[i].group].active) continue;
+    states_[i].seen = after_[i];
   }
 }
 

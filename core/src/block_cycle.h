@@ -37,9 +37,11 @@ class BlockCycle {
     Residual seen;            ///< by the last measured sweep
     Residual seen_with_step;  ///< the same, while sweeps alone are tried
     Residual best;            ///< of the snapshot; its energy is infinite if there is none
-    bool stepped = false;     ///< a step was taken before this leg, and is not judged yet
-    bool rests = false;       ///< one was judged after this leg: the next leg is one of sweeps
+    double first_merit = 0;   ///< after the first few sweeps, if marked; see FindMerits()
+    bool marked = false;
+    bool stepped = false;  ///< a step was taken before this leg, and is not judged yet
     bool better_alone = false;
+    bool rests = false;  ///< one was judged after this leg: the next leg is one of sweeps
   };
 
   void Begin();
@@ -71,20 +73,28 @@ class BlockCycle {
   // block_cycle_steps.cc
   void TakeSteps();
   void FindCandidates();
+  double SureGain() const;
   void KeepBetterSteps(int sweeps);
   void TryWithoutSteps(int sweeps);
+  /// Merits of the islands of the groups that are chosen, and of all that may take steps.
+  void FindChosenMerits(std::vector<double>* merits);
+  void MarkMerits();
+  /// Tells what steps, or sweeps alone, came to in this frame.
+  void Learn(StepChoice* choice);
 
   const Settings* settings_ = nullptr;
   BlockFrame* frame_ = nullptr;
   BudgetMeter* meter_ = nullptr;
   BlockSweeps* sweeps_ = nullptr;
   BlockSteps steps_;
+  bool watches_ = false;  ///< what steps and sweeps make of the budget
 
   std::vector<GroupSweeps> made_, chosen_;
   std::vector<IslandState> states_;
   std::vector<IslandReport> islands_;
   std::vector<int> stepped_islands_, stopped_;
   std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
+  std::vector<double> merits_;                                ///< by island
   BlockSnapshot done_, best_, before_steps_, after_steps_;
   int legs_ = 0;
 };

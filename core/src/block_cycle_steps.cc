@@ -1,30 +1,103 @@
 // SPDX-License-Identifier: MIT
 // Subspace steps of BlockCycle: where, and whether they are kept.
 #include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 #include "block_cycle.h"
+#include "block_merit.h"
 
 namespace cairn {
 namespace {
 
 /// Fewer sweeps after a step do not smooth what it leaves behind.
 constexpr int kLeastSweepsAfterStep = 3;
-/// A step that brought the residual down to this share is kept without trying sweeps alone.
-constexpr double kSureGain = 0.1;
+/// A step that brought the residual down to this share is kept without trying sweeps alone; under a
+/// budget, of which that trial takes as much as the step's sweeps, and where frames are compared.
+constexpr double kSureGain = 0.1, kSureGainOfBudget = 0.7;
+/// What costs more sweeps than this is not tried.
+constexpr double kMostSweeps = 1000;
 
 }  // namespace
 
+double BlockCycle::SureGain() const { return watches_ ? kSureGainOfBudget : kSureGain; }
+
 void BlockCycle::FindCandidates() {
   const int left = settings_->max_sweeps - SweepsMade();
-  if (left < std::min(settings_->k_gs, kLeastSweepsAfterStep)) return;
-  // after the step, its sweeps, and as many without it, which it has to beat
-  const double sweeps = 2 * (std::min(settings_->k_gs, left) + BlockSweeps::kMeasureSweeps);
+  if (!steps_.asked() || left < std::min(settings_->k_gs, kLeastSweepsAfterStep)) return;
+  // after the step its sweeps, and as many without it, which it has to beat
+  const double sweeps =
+      (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
+  const bool always = settings_->step_policy == StepPolicy::kAlways;
   const Plan& plan = frame_->plan();
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (std::exchange(states_[i].rests, false) || Done(i)) continue;
-    if (steps_.Pays(i, meter_, sweeps * plan.islands()[i].rows)) stepped_islands_.push_back(i);
+  double steps_units = 0, sweeps_units = 0;
+  for (int g = 0; g < static_cast<int>(made_.size()); ++g) {
+    const Group& group = plan.groups()[g];
+    const size_t first = stepped_islands_.size();
+    for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
+      if (std::exchange(states_[i].rests, false) || Done(i)) continue;
+      if (plan.islands()[i].first_body >= 0 && steps_.Due(i)) stepped_islands_.push_back(i);
+    }
+    if (stepped_islands_.size() == first) continue;
+
+    const double rows = static_cast<double>(group.rows), after = sweeps_units + sweeps * rows;
+    double price = steps_.PriceOfPrice(g);
+    bool fits = meter_->Fits(steps_units + price, after);
+    if (fits) {
+      // as many factorisations as fit
+      const auto islands = std::span(stepped_islands_).subspan(first);
+      int most = settings_->k_sm;
+      do {
+        price = steps_.Price(g, islands, most);
+        fits = (always || price <= kMostSweeps * rows) && meter_->Fits(steps_units + price, after);
+      } while (!fits && --most > 0);
+      steps_.Limit(g, most);
+      for (int i : islands) {
+        if (!fits) steps_.Postpone(i);
+      }
+    }
+    if (!fits) {
+      stepped_islands_.resize(first);
+      continue;
+    }
+    steps_units += price;
+    sweeps_units = after;
   }
+}
+
+void BlockCycle::FindChosenMerits(std::vector<double>* merits) {
+  merits->resize(islands_.size());
+  for (size_t g = 0; g < chosen_.size(); ++g) {
+    if (chosen_[g].active) {
+      FindMerits(frame_->plan(), frame_->plan().groups()[g], frame_->blocks(), *merits);
+    }
+  }
+}
+
+void BlockCycle::MarkMerits() {
+  if (!steps_.asked() && !watches_) return;
+  for (GroupSweeps& group : chosen_) group.active = true;
+  FindChosenMerits(&merits_);
+  for (size_t i = 0; i < islands_.size(); ++i) {
+    states_[i].first_merit = merits_[i];
+    states_[i].marked = true;
+  }
+}
+
+void BlockCycle::Learn(StepChoice* choice) {
+  bool stepped = false, marked = false;
+  double fall = 0, size = 0;
+  for (GroupSweeps& group : chosen_) group.active = true;
+  FindChosenMerits(&merits_);
+  for (size_t i = 0; i < islands_.size(); ++i) {
+    stepped = stepped || islands_[i].steps_accepted + islands_[i].steps_restored > 0;
+    marked = marked || states_[i].marked;
+    if (!states_[i].marked) continue;
+    fall += states_[i].first_merit - merits_[i];
+    size += std::abs(merits_[i]);
+  }
+  if (marked && size > 0) choice->Learn(stepped, fall / size);
 }
 
 void BlockCycle::TakeSteps() {
@@ -33,11 +106,22 @@ void BlockCycle::TakeSteps() {
   ChooseNone();
   for (int i : stepped_islands_) Choose(i);
   MeasureChosen(&before_);
+
+  // islands of a group follow each other
+  const Plan& plan = frame_->plan();
+  const std::span<const int> all = stepped_islands_;
+  for (size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    const int group = plan.islands()[all[begin]].group;
+    while (end < all.size() && plan.islands()[all[end]].group == group) ++end;
+    const std::span<const int> islands = all.subspan(begin, end - begin);
+    for (int i : islands) before_steps_.Take(plan, i, frame_->blocks());
+    steps_.Take(group, islands, meter_);
+    for (int i : islands) {
+      islands_[i].factorisations += steps_.result(i).factorisations;
+      states_[i].stepped = steps_.result(i).solved;
+    }
+  }
   std::erase_if(stepped_islands_, [this](int i) {
-    before_steps_.Take(frame_->plan(), i, frame_->blocks());
-    const int factorisations = steps_.Take(i, meter_);
-    islands_[i].factorisations += factorisations;
-    states_[i].stepped = factorisations > 0;
     if (states_[i].stepped) return false;
     steps_.Judge(i, false);
     ++islands_[i].steps_restored;
@@ -54,7 +138,7 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
   bool sure = true;
   for (int i : stepped_islands_) {
     states_[i].better_alone = false;
-    if (with_step_[i].energy <= kSureGain * before_[i].energy) continue;
+    if (with_step_[i].energy <= SureGain() * before_[i].energy) continue;
     Choose(i);
     sure = false;
   }
@@ -88,7 +172,7 @@ void BlockCycle::TryWithoutSteps(int sweeps) {
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Chosen(i)) continue;
     states_[i].better_alone = states_[i].stepped && with_step_[i].energy > alone_[i].energy &&
-                              with_step_[i].energy > kSureGain * before_[i].energy;
+                              with_step_[i].energy > SureGain() * before_[i].energy;
     if (states_[i].better_alone) continue;
     states_[i].seen = states_[i].seen_with_step;
     after_steps_.Restore(plan, i, blocks);

@@ -31,6 +31,7 @@ class BlockFrame {
   std::span<const WhitenedBody> bodies() const { return bodies_; }
   BlockData& blocks() { return blocks_; }
   std::span<simd::BlockError> errors() { return errors_; }
+  simd::Target target() const { return target_; }
   const simd::PairKernels& kernels() const { return *kernels_; }
 
   /// The work of some blocks of the plan.

@@ -1,109 +1,144 @@
 // SPDX-License-Identifier: MIT
 #include "block_steps.h"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace cairn {
 namespace {
 
-/// Rows that a kernel relaxes in the time of one row in double precision: what a step costs is
-/// counted in those.
-constexpr double kKernelGain = 10;
+// Relaxations of rows by kernels per piece of a step, fitted to timings of all scenes (AVX2, within
+// a tenth). What a relaxation takes in steps is learnt on every machine: WorkPrices::step_ns.
+struct StepPrices {
+  double line;       ///< once, per line of impulses: reading, predicting, writing
+  double line_pass;  ///< per line and factorisation: weights, assembly, a solve
+  double refine;     ///< per line and further solve
+  double flops;      ///< per multiply-add of a factorisation
+  double entry;      ///< per entry of the factor and solve
+  double body;       ///< per body and factorisation
+};
+constexpr StepPrices kFloatPrices = {110, 100, 65, 0.014, 1.9, 240};
+constexpr StepPrices kDoublePrices = {230, 125, 80, 0.025, 2.2, 300};
+/// Per row, where the body graph is new.
+constexpr double kAnalyseRow = 20;
 
 }  // namespace
 
 void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-                       IslandMemories* memories) {
+                       IslandMemories* memories, Crew* crew, bool asked) {
   problem_ = &problem;
   settings_ = &settings;
   frame_ = frame;
   memories_ = memories;
-  packer_.reset();
-  const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
-  states_.clear();
-  if (!asked) return;
-  if (plan_number_ != frame->plan_number()) FindRows();
-  states_.resize(islands_.size());
+  crew_ = crew;
+  asked_ = asked;
+  if (!asked_) return;
+  const Plan& plan = frame->plan();
+  memory_of_island_.assign(plan.islands().size(), nullptr);
+  islands_.assign(plan.islands().size(), {});
+  islands_now_.assign(plan.islands().size(), {});
+  limits_.assign(plan.groups().size(), settings.k_sm);
+  if (float_step_ == nullptr) {
+    float_step_ = std::make_unique<BlockStep<float>>(frame->target());
+    double_step_ = std::make_unique<BlockStep<double>>(frame->target());
+  }
+  if (plan_number_ != frame->plan_number()) ReadPlan();
 }
 
-void BlockSteps::FindRows() {
+void BlockSteps::ReadPlan() {
   const Plan& plan = frame_->plan();
   plan_number_ = frame_->plan_number();
-  islands_ = FindIslands(*problem_);
-  place_.resize(problem_->rows.size());
+  in_double_.assign(plan.islands().size(), 0);
+  keys_.assign(plan.islands().size(), ~std::uint64_t{0});
   for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      int line = static_cast<int>(block.x);
-      for (int row : plan.rows_of(plan.pair(b, lane))) place_[row] = line++ * simd::kLanes + lane;
-    }
+    const bool joints =
+        std::any_of(block.rows, block.rows + block.row_count,
+                    [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
+    for (int lane = 0; lane < block.lanes && joints; ++lane)
+      in_double_[plan.island_of(b, lane)] = 1;
+  }
+  for (int body : plan.body_of_slot()) {
+    if (body == kWorld) continue;
+    std::uint64_t& key = keys_[plan.island_of_body()[body]];
+    key = std::min(key, IslandMemories::KeyOf(problem_->bodies[body], body));
   }
 }
 
-BlockSteps::State& BlockSteps::StateOf(int island) {
-  State& state = states_[island];
-  if (state.memory == nullptr) {
-    state.memory = memories_->Recall(*problem_, islands_[island].bodies);
+IslandMemory* BlockSteps::MemoryOf(int island) {
+  IslandMemory*& memory = memory_of_island_[island];
+  if (memory == nullptr) {
+    memory = memories_->Recall(keys_[island], frame_->plan().islands()[island].first_body);
   }
-  return state;
+  return memory;
 }
 
-bool BlockSteps::Pays(int island, BudgetMeter* meter, double sweep_units) {
-  if (states_.empty() || islands_[island].bodies.empty()) return false;
-  State& state = StateOf(island);
-  const double rows = static_cast<double>(islands_[island].rows.size());
-  if (!state.memory->Due(rows, *settings_, {meter, kKernelGain, sweep_units})) return false;
-  if (!packer_) packer_.emplace(*problem_, *settings_, frame_->bodies());
-  if (!state.packed) state.packed = packer_->Pack(islands_[island]);
-  return state.memory->StepPays(*state.packed, *settings_, {meter, kKernelGain, sweep_units});
+bool BlockSteps::Due(int island) { return MemoryOf(island)->Due(*settings_); }
+
+template <class T>
+BlockSystem<T>& BlockSteps::SystemOf(int group) {
+  const Plan& plan = frame_->plan();
+  const int first = plan.islands_of_groups()[plan.groups()[group].first_island];
+  return MemoryOf(first)->block_system<T>(frame_->target());
 }
 
-int BlockSteps::Take(int island, BudgetMeter* meter) {
-  State& of = states_[island];
-  IslandState state;
-  Read(island, *of.packed, &state);
+double BlockSteps::PriceOfPrice(int group) const {
+  return kAnalyseRow * static_cast<double>(frame_->plan().groups()[group].rows);
+}
+
+double BlockSteps::Price(int group, std::span<const int> islands, int factorisations) {
+  const auto is_double = [this](int i) { return in_double_[i] != 0; };
+  const bool some = std::any_of(islands.begin(), islands.end(), is_double);
+  const bool all = some && std::all_of(islands.begin(), islands.end(), is_double);
+  return (some ? PriceOf<double>(group, factorisations) : 0) +
+         (all ? 0 : PriceOf<float>(group, factorisations));
+}
+
+template <class T>
+double BlockSteps::PriceOf(int group, int factorisations) {
+  const StepPrices& prices = std::is_same_v<T, double> ? kDoublePrices : kFloatPrices;
+  BlockSystem<T>& system = SystemOf<T>(group);
+  system.Prepare(frame_->plan(), frame_->plan_number(), group);
+  const double lines = frame_->plan().groups()[group].x_lines;
+  const double factorise = prices.line_pass * lines + prices.flops * system.flops() +
+                           prices.entry * system.nonzeros() + prices.body * system.nodes();
+  const double refine = prices.refine * lines + prices.entry * system.nonzeros();
+  return prices.line * lines + factorisations * factorise + (settings_->refinements - 1) * refine;
+}
+
+void BlockSteps::Take(int group, std::span<const int> islands, BudgetMeter* meter) {
+  TakeAs(group, islands, meter, double_step_.get());
+  TakeAs(group, islands, meter, float_step_.get());
+}
+
+template <class T>
+void BlockSteps::TakeAs(int group, std::span<const int> islands, BudgetMeter* meter,
+                        BlockStep<T>* step) {
+  const auto chosen = [this](int i) { return (in_double_[i] != 0) == std::is_same_v<T, double>; };
+  if (std::none_of(islands.begin(), islands.end(), chosen)) return;
+  for (int i : islands) {
+    islands_now_[i] = {.taken = chosen(i), .proximal = MemoryOf(i)->Step(*settings_).proximal};
+  }
+  const StepSettings settings = {.proximal = settings_->proximal,
+                                 .proximal_joints = settings_->proximal_joints,
+                                 .factorisations = limits_[group],
+                                 .refinements = settings_->refinements};
+  BlockSystem<T>& system = SystemOf<T>(group);
   meter->Begin();
-  const StepResult result =
-      TakeStep(*of.packed, of.memory->Step(*settings_), &of.memory->system(), &state);
-  meter->Charge(WorkKind::kStep,
-                kKernelGain * of.memory->Cost(*of.packed, *settings_, result.factorisations));
-  if (!result.solved) return 0;
-  Write(island, state);
-  return result.factorisations;
+  const int made =
+      step->Take(frame_->plan(), group, settings, &system, crew_, &frame_->blocks(), islands_now_);
+  meter->Charge(WorkKind::kStep, PriceOf<T>(group, made));
+  for (int i : islands) {
+    if (chosen(i)) islands_[i] = islands_now_[i];
+    islands_now_[i].taken = false;
+  }
 }
 
 void BlockSteps::Judge(int island, bool accepted) {
   if (accepted) {
-    states_[island].memory->Accepted();
+    MemoryOf(island)->Accepted();
   } else {
-    states_[island].memory->Restored();
-  }
-}
-
-void BlockSteps::Read(int island, const PackedIsland& packed, IslandState* state) const {
-  const std::vector<int>& rows = islands_[island].rows;
-  state->x.resize(rows.size());
-  for (size_t k = 0; k < rows.size(); ++k) {
-    const int place = place_[rows[k]];
-    const simd::Line& line = frame_->blocks().x[place / simd::kLanes];
-    state->x[k] = static_cast<double>(line.lane[place % simd::kLanes]);
-  }
-  state->u.resize(packed.bodies + 1);
-  RecomputeVelocities(packed, state);
-}
-
-void BlockSteps::Write(int island, const IslandState& state) const {
-  const Island& of = islands_[island];
-  for (size_t k = 0; k < of.rows.size(); ++k) {
-    const int place = place_[of.rows[k]];
-    simd::Line& line = frame_->blocks().x[place / simd::kLanes];
-    line.lane[place % simd::kLanes] = static_cast<float>(state.x[k]);
-  }
-  for (size_t i = 0; i < of.bodies.size(); ++i) {
-    const int slot = frame_->plan().slot_of_body()[of.bodies[i]];
-    float* const u = frame_->blocks().bodies[slot].u;
-    for (int k = 0; k < 3; ++k) {
-      u[k] = static_cast<float>(state.u[i + 1][k]);
-      u[4 + k] = static_cast<float>(state.u[i + 1][3 + k]);
-    }
+    MemoryOf(island)->Restored();
   }
 }
 

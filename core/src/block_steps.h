@@ -1,53 +1,73 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "block_frame.h"
 #include "budget.h"
+#include "crew.h"
 #include "memories.h"
-#include "pack.h"
-#include "subspace/policy.h"
+#include "subspace/block_step.h"
 
 namespace cairn {
 
-/// Subspace steps on islands whose state is in blocks. The step itself works in double precision on
-/// rows of its own, packed when the first step of a frame is considered.
+/// Subspace steps on islands whose state is in blocks: those of a group together, as their rows
+/// share lanes. In single precision on islands whose rows all have bounds, as those of contacts;
+/// rows without want a proximal term that floats cannot hold.
 class BlockSteps {
  public:
-  /// A new frame. The arguments must outlive it.
+  /// A new frame. The arguments must outlive it. @p asked: steps may be taken
   void Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-             IslandMemories* memories);
+             IslandMemories* memories, Crew* crew, bool asked);
 
-  /// Whether a step should be tried on the island now; see IslandMemory::StepPays().
-  bool Pays(int island, BudgetMeter* meter, double sweep_units);
-  /// Takes it. Returns how many factorisations were made, 0 if none succeeded and nothing changed.
-  int Take(int island, BudgetMeter* meter);
+  /// Steps may be taken at all.
+  bool asked() const { return asked_; }
+  /// Whether no step failed on the island of late.
+  bool Due(int island);
+  /// What a step with so many factorisations costs on some islands of a group, in relaxations of
+  /// rows by kernels; what asking may cost.
+  double Price(int group, std::span<const int> islands, int factorisations);
+  double PriceOfPrice(int group) const;
+  /// The island is left alone for a while: steps are too dear there.
+  void Postpone(int island) { MemoryOf(island)->Postpone(); }
+  /// How many factorisations the next step of a group may make.
+  void Limit(int group, int factorisations) { limits_[group] = factorisations; }
+  /// Takes a step on some islands of a group.
+  void Take(int group, std::span<const int> islands, BudgetMeter* meter);
+  /// What came of the last one; where it did not succeed, nothing changed.
+  const StepResult& result(int island) const { return islands_[island].result; }
   /// What became of the step.
   void Judge(int island, bool accepted);
 
  private:
-  struct State {
-    IslandMemory* memory = nullptr;
-    std::optional<PackedIsland> packed;
-  };
-
-  void FindRows();
-  State& StateOf(int island);
-  void Read(int island, const PackedIsland& packed, IslandState* state) const;
-  void Write(int island, const IslandState& state) const;
+  IslandMemory* MemoryOf(int island);
+  void ReadPlan();
+  void ChooseIslands(std::span<const int> islands, bool in_double);
+  template <class T>
+  BlockSystem<T>& SystemOf(int group);
+  template <class T>
+  double PriceOf(int group, int factorisations);
+  template <class T>
+  void TakeAs(int group, std::span<const int> islands, BudgetMeter* meter, BlockStep<T>* step);
 
   const ContactProblem* problem_ = nullptr;
   const Settings* settings_ = nullptr;
   BlockFrame* frame_ = nullptr;
   IslandMemories* memories_ = nullptr;
-  std::optional<Packer> packer_;
+  Crew* crew_ = nullptr;
+  bool asked_ = false;
 
-  int plan_number_ = -1;         ///< of what follows
-  std::vector<Island> islands_;  ///< of the plan, with their rows
-  std::vector<int> place_;       ///< problem row -> x line * lanes + lane
-  std::vector<State> states_;
+  int plan_number_ = -1;             ///< of what follows
+  std::vector<int> limits_;          ///< by group
+  std::vector<char> in_double_;      ///< by island
+  std::vector<std::uint64_t> keys_;  ///< by island
+  std::vector<IslandMemory*> memory_of_island_;
+  std::vector<IslandStep> islands_, islands_now_;
+  std::unique_ptr<BlockStep<float>> float_step_;
+  std::unique_ptr<BlockStep<double>> double_step_;
 };
 
 }  // namespace cairn

@@ -9,9 +9,11 @@ namespace cairn {
 namespace {
 
 /// Safety on the predicted time of a step, which depends on the set that it finds.
-constexpr double kStepMargin = 1.5;
+constexpr double kStepMargin = 1.25;
 /// Weight of the newest measurement in a price.
 constexpr double kPriceMemory = 0.05;
+/// The same for steps, of which there are few.
+constexpr double kStepMemory = 0.2;
 /// The same for what comes after the iteration where it took longer than thought: what is not set
 /// aside for it is overrun.
 constexpr double kFinishMemory = 0.5;
@@ -63,8 +65,12 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
   }
   const Clock::time_point now = Clock::now();
   if (units > 0) {
-    double* const price = kind == WorkKind::kSweep ? &prices_->sweep_ns : &prices_->step_ns;
-    Learn(Nanoseconds(now - last_) / units, kPriceMemory, price);
+    const double ns = Nanoseconds(now - last_) / units;
+    if (kind == WorkKind::kSweep) {
+      Learn(ns, kPriceMemory, &prices_->sweep_ns);
+    } else {
+      Learn(ns, kStepMemory, &prices_->step_ns);
+    }
   }
   last_ = now;
   if (spent_ || TimeLeft(now) > 0) return;

@@ -102,9 +102,8 @@ bool IslandCycle::StepsLeft() const {
 bool IslandCycle::StepPays(BudgetMeter* meter) {
   // after the step, its sweeps, and as many without it, which it has to beat
   const double sweeps = 2 * (SweepsOfLeg() + kMeasureSweeps);
-  const StepBudget budget{meter, 1, sweeps * units_per_sweep()};
-  return memory_->Due(units_per_sweep(), settings_, budget) &&
-         memory_->StepPays(island_, settings_, budget);
+  return memory_->Due(settings_) &&
+         memory_->StepPays(island_, settings_, {meter, sweeps * units_per_sweep()});
 }
 
 void IslandCycle::StepLeg(BudgetMeter* meter) {

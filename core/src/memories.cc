@@ -13,17 +13,20 @@ constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
 
 }  // namespace
 
+std::uint64_t IslandMemories::KeyOf(const Body& body, int place) {
+  return body.id != 0 ? body.id : kUnnamed + static_cast<std::uint64_t>(place);
+}
+
 IslandMemory* IslandMemories::Recall(const ContactProblem& problem, std::span<const int> bodies) {
-  // without names from the caller, the position of the first body has to do
   std::uint64_t key = ~std::uint64_t{0};
-  for (int body : bodies) {
-    const std::uint64_t id = problem.bodies[body].id;
-    key = std::min(key, id != 0 ? id : kUnnamed + static_cast<std::uint64_t>(body));
-  }
+  for (int body : bodies) key = std::min(key, KeyOf(problem.bodies[body], body));
+  return Recall(key, bodies.empty() ? -1 : bodies.front());
+}
+
+IslandMemory* IslandMemories::Recall(std::uint64_t key, int first_body) {
   // two islands of one name must not share a system: the second goes by another name
-  const int place = bodies.empty() ? 0 : bodies.front() + 1;
   while (memories_[key].last_frame == frame_) {
-    key = key * 6364136223846793005u + static_cast<std::uint64_t>(place);
+    key = key * 6364136223846793005u + static_cast<std::uint64_t>(first_body + 1);
   }
   Remembered& remembered = memories_[key];
   remembered.last_frame = frame_;

@@ -7,14 +7,22 @@
 
 #include "cairn/contact_problem.h"
 #include "subspace/policy.h"
+#include "subspace/step_choice.h"
 
 namespace cairn {
 
 /// What was learnt about each island, from frame to frame.
 class IslandMemories {
  public:
-  /// The memory of the island of these bodies (ascending). It stays where it is until EndFrame().
+  /// What a body is known by: its name, or its place without one.
+  static std::uint64_t KeyOf(const Body& body, int place);
+  /// The memory of an island, by the smallest key of its bodies and the place of the first. It
+  /// stays where it is until EndFrame().
+  IslandMemory* Recall(std::uint64_t key, int first_body);
+  /// The same. @p bodies: ascending
   IslandMemory* Recall(const ContactProblem& problem, std::span<const int> bodies);
+  /// Of frames with a budget, for all islands: they share it.
+  StepChoice& choice() { return choice_; }
   /// Drops islands that have not been seen for a while.
   void EndFrame();
 
@@ -26,6 +34,7 @@ class IslandMemories {
 
   std::unordered_map<std::uint64_t, Remembered> memories_;
   int frame_ = 1;
+  StepChoice choice_;
 };
 
 }  // namespace cairn

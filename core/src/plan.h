@@ -70,6 +70,8 @@ class Plan {
   std::span<const Stage> stages() const { return stages_; }
   std::span<const Unit> units() const { return units_; }
   std::span<const PlannedIsland> islands() const { return islands_; }
+  /// -1 for a body without rows.
+  std::span<const int> island_of_body() const { return island_finder_.island_of_body(); }
   std::span<const int> islands_of_groups() const { return islands_of_groups_; }
   /// Body of each slot, kWorld for those that belong to none: the first, and one for each pair that
   /// cannot move.

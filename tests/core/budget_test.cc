@@ -64,7 +64,7 @@ double DearestStep(const Scene& scene, const Settings& settings) {
     IslandMemory memory;
     WorkPrices prices;
     BudgetMeter meter(Budget::Unlimited(), 0, &prices);
-    EXPECT_TRUE(memory.StepPays(packed, settings, {&meter, 1, 0}));
+    EXPECT_TRUE(memory.StepPays(packed, settings, {&meter, 0}));
     const double sweeps = 2 * (settings.k_gs + 0.5) * static_cast<double>(packed.rows.size());
     dearest = std::max(dearest, memory.Cost(packed, settings, settings.k_sm) + sweeps);
   }

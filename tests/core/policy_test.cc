@@ -22,10 +22,7 @@ class Asked {
 
   bool Pays(StepPolicy policy = StepPolicy::kMeasured, double sweeps = 0) {
     settings_.step_policy = policy;
-    const StepBudget budget{&meter_, 1, sweeps};
-    const double rows = static_cast<double>(packed_.island.rows.size());
-    return memory_.Due(rows, settings_, budget) &&
-           memory_.StepPays(packed_.island, settings_, budget);
+    return memory_.Due(settings_) && memory_.StepPays(packed_.island, settings_, {&meter_, sweeps});
   }
   /// Opportunities passed over until the next step.
   int Pause() {

@@ -39,23 +39,35 @@ double IslandMemory::Cost(const PackedIsland& island, const Settings& settings,
   return kPrepareRow * rows + factorisations * (factorise + settings.refinements * solve);
 }
 
-bool IslandMemory::Due(double rows, const Settings& settings, const StepBudget& budget) {
-  if (pause_ > 0 && settings.step_policy != StepPolicy::kAlways) {
-    --pause_;
-    return false;
-  }
-  return budget.meter->Fits(budget.gain * (kPrepareRow + kAnalyseRow) * rows, budget.sweep_units);
+bool IslandMemory::Due(const Settings& settings) {
+  if (pause_ <= 0 || settings.step_policy == StepPolicy::kAlways) return true;
+  --pause_;
+  return false;
 }
+
+void IslandMemory::Postpone() { pause_ = kPriceAgain; }
 
 bool IslandMemory::StepPays(const PackedIsland& island, const Settings& settings,
                             const StepBudget& budget) {
+  const double rows = static_cast<double>(island.rows.size());
+  if (!budget.meter->Fits((kPrepareRow + kAnalyseRow) * rows, budget.sweep_units)) return false;
   system_.Prepare(island);
   const double cost = Cost(island, settings, settings.k_sm);
-  const bool too_dear = cost > kMostSweeps * static_cast<double>(island.rows.size()) &&
-                        settings.step_policy != StepPolicy::kAlways;
-  if (!too_dear && budget.meter->Fits(budget.gain * cost, budget.sweep_units)) return true;
-  pause_ = kPriceAgain;
+  const bool too_dear = cost > kMostSweeps * rows && settings.step_policy != StepPolicy::kAlways;
+  if (!too_dear && budget.meter->Fits(cost, budget.sweep_units)) return true;
+  Postpone();
   return false;
+}
+
+template <>
+BlockSystem<float>& IslandMemory::block_system(simd::Target target) {
+  if (float_system_ == nullptr) float_system_ = std::make_unique<BlockSystem<float>>(target);
+  return *float_system_;
+}
+template <>
+BlockSystem<double>& IslandMemory::block_system(simd::Target target) {
+  if (double_system_ == nullptr) double_system_ = std::make_unique<BlockSystem<double>>(target);
+  return *double_system_;
 }
 
 void IslandMemory::Accepted() {

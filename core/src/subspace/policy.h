@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include "budget.h"
 #include "cairn/settings.h"
+#include "subspace/block_system.h"
 #include "subspace/body_system.h"
 #include "subspace/step.h"
 
@@ -11,7 +14,6 @@ namespace cairn {
 /// What a step has to fit in.
 struct StepBudget {
   BudgetMeter* meter;
-  double gain;  ///< Work units that sweeps do in the time that one took when steps were priced.
   double sweep_units;  ///< Sweeps to be made after the step.
 };
 
@@ -21,8 +23,10 @@ class IslandMemory {
  public:
   StepSettings Step(const Settings& settings) const;
 
-  /// Whether to ask StepPays(): no step failed here of late, and the budget is not all but spent.
-  bool Due(double rows, const Settings& settings, const StepBudget& budget);
+  /// Whether no step failed here of late: one opportunity less to be passed over, if not.
+  bool Due(const Settings& settings);
+  /// Steps are too dear here: to be asked again after a while.
+  void Postpone();
   /// Whether a step should be tried now: it costs less than a step can gain, and together with the
   /// sweeps after it is predicted to fit the budget. On true, system() is prepared for the island.
   bool StepPays(const PackedIsland& island, const Settings& settings, const StepBudget& budget);
@@ -36,9 +40,14 @@ class IslandMemory {
   void Restored();
 
   BodySystem& system() { return system_; }
+  /// For steps on blocks: of the group whose first island this is.
+  template <class T>
+  BlockSystem<T>& block_system(simd::Target target);
 
  private:
   BodySystem system_;
+  std::unique_ptr<BlockSystem<float>> float_system_;
+  std::unique_ptr<BlockSystem<double>> double_system_;
   double softening_ = 1;  ///< factor on Settings::proximal, >= 1
   int strikes_ = 0;       ///< rejections in a row
   int pause_ = 0;         ///< opportunities still to be passed over

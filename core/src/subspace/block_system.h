@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "block_pack.h"
+#include "crew.h"
+#include "plan.h"
+#include "simd/pair_products.h"
+#include "subspace/front_cholesky.h"
+
+namespace cairn {
+
+/// The reduced system of a group in body space, H = I + G_F' W G_F with a weight for each free row,
+/// from rows in blocks. By the Woodbury identity it answers what the paper's (G_F G_F' + W^-1)
+/// asks, but it is positive definite however redundant the rows are, and its pattern, the body
+/// graph, does not change with the set.
+template <class T>
+class BlockSystem {
+ public:
+  explicit BlockSystem(simd::Target target);
+
+  /// Finds the bodies of the group and which of them touch, and analyses that graph unless the one
+  /// of an earlier call holds it and little more. @p plan_number: changes with the plan.
+  void Prepare(const Plan& plan, int plan_number, int group);
+  /// The last Prepare() had to analyse.
+  bool analysed() const { return analysed_; }
+
+  /// Multiply-adds of a factorisation, and entries of the factor.
+  double flops() const { return cholesky_.pattern().flops(); }
+  double nonzeros() const { return cholesky_.pattern().nonzeros(); }
+
+  /// Bodies of the group that can move: each is a node.
+  int nodes() const { return static_cast<int>(bodies_.size()); }
+  /// The node of a slot, -1 for the world.
+  int node_of_slot(int slot) const {
+    return slot == 0 ? -1 : node_of_slot_[static_cast<size_t>(slot - first_slot_)];
+  }
+
+  /// Assembles and factorises. @p weights: one line for each x line of the group; rows of weight 0
+  /// are left out. False if rounding made H indefinite.
+  /// @pre the last Prepare() was for this group of this plan
+  [[nodiscard]] bool Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
+                               std::span<const simd::LineOf<T>> weights, Crew* crew);
+  /// Solves H v = rhs in place, six numbers a node.
+  void Solve(std::span<T> rhs) { cholesky_.Solve(rhs); }
+
+ private:
+  void FindBodies(const Plan& plan, const Group& group);
+  bool FindLanes(const Plan& plan, const Group& group);
+  void FindPairs(const Plan& plan, const Group& group);
+  NodePair PairOf(const simd::PairBlock& block, int lane) const;
+  void AddLane(const simd::PairBlock& block, int lane, int pair, const simd::LineOf<T>* gram);
+
+  const simd::PairProducts<T>& products_;
+  FrontCholesky<T> cholesky_;
+  bool analysed_ = false;
+  int plan_number_ = -1, group_ = -1;
+  int first_slot_ = 0;
+  std::vector<int> bodies_, bodies_now_;  ///< ascending problem indices
+  std::vector<int> node_of_slot_;
+  std::vector<NodePair> pairs_;    ///< of the analysed graph
+  std::vector<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
+};
+
+extern template class BlockSystem<float>;
+extern template class BlockSystem<double>;
+
+}  // namespace cairn
