@@ -76,8 +76,9 @@ class BlockCycle {
   double SureGain() const;
   void KeepBetterSteps(int sweeps);
   void TryWithoutSteps(int sweeps);
-  /// Merits of the islands of the groups that are chosen, and of all that may take steps.
+  /// Merits of the islands of the groups that are chosen; see FindMerits().
   void FindChosenMerits(std::vector<double>* merits);
+  /// Remembers them, if frames with steps are compared with frames without.
   void MarkMerits();
   /// Tells what steps, or sweeps alone, came to in this frame.
   void Learn(StepChoice* choice);

@@ -13,8 +13,9 @@ namespace {
 
 /// Fewer sweeps after a step do not smooth what it leaves behind.
 constexpr int kLeastSweepsAfterStep = 3;
-/// A step that brought the residual down to this share is kept without trying sweeps alone; under a
-/// budget, of which that trial takes as much as the step's sweeps, and where frames are compared.
+/// A step that brought the residual down to this share is kept without trying sweeps alone. Under a
+/// budget less is enough: that trial takes from it as much as the sweeps of the step do, and frames
+/// are compared there.
 constexpr double kSureGain = 0.1, kSureGainOfBudget = 0.7;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
@@ -76,7 +77,7 @@ void BlockCycle::FindChosenMerits(std::vector<double>* merits) {
 }
 
 void BlockCycle::MarkMerits() {
-  if (!steps_.asked() && !watches_) return;
+  if (!watches_) return;
   for (GroupSweeps& group : chosen_) group.active = true;
   FindChosenMerits(&merits_);
   for (size_t i = 0; i < islands_.size(); ++i) {

@@ -45,7 +45,6 @@ class BlockSteps {
  private:
   IslandMemory* MemoryOf(int island);
   void ReadPlan();
-  void ChooseIslands(std::span<const int> islands, bool in_double);
   template <class T>
   BlockSystem<T>& SystemOf(int group);
   template <class T>

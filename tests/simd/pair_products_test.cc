@@ -130,7 +130,7 @@ void ExpectGram(Target target, PairForm form, unsigned seed) {
 class PairProductsOf : public testing::TestWithParam<Target> {};
 
 INSTANTIATE_TEST_SUITE_P(Every, PairProductsOf, testing::ValuesIn(SupportedTargets()),
-                         [](const auto& info) { return std::string(TargetName(info.param)); });
+                         [](const auto& target) { return std::string(TargetName(target.param)); });
 
 TEST_P(PairProductsOf, AreThoseOfTheRows) {
   for (const PairForm form : kForms) {
