@@ -29,8 +29,8 @@ int Count(const std::vector<bool>& steps, size_t begin, size_t end) {
 
 TEST(StepChoice, TriesBothOnceAndKeepsTheBetterOne) {
   StepChoice steps_pay, sweeps_pay;
-  const auto with = Play(&steps_pay, 10, [](bool with) { return with ? 2.0 : 1.0; });
-  const auto without = Play(&sweeps_pay, 10, [](bool with) { return with ? 1.0 : 2.0; });
+  const auto with = Play(&steps_pay, 10, [](bool taken) { return taken ? 2.0 : 1.0; });
+  const auto without = Play(&sweeps_pay, 10, [](bool taken) { return taken ? 1.0 : 2.0; });
   EXPECT_TRUE(with[0] && without[0]) << "steps first";
   EXPECT_FALSE(with[1] || without[1]);
   EXPECT_EQ(Count(with, 2, 10), 8);
@@ -39,7 +39,7 @@ TEST(StepChoice, TriesBothOnceAndKeepsTheBetterOne) {
 
 TEST(StepChoice, LooksAtTheLoserEverMoreRarely) {
   StepChoice choice;
-  const auto steps = Play(&choice, 3000, [](bool with) { return with ? 1.0 : 2.0; });
+  const auto steps = Play(&choice, 3000, [](bool taken) { return taken ? 1.0 : 2.0; });
   EXPECT_GE(Count(steps, 2, 200), 3);
   EXPECT_LE(Count(steps, 2, 200), 6);
   EXPECT_GE(Count(steps, 2000, 3000), 2);
@@ -48,8 +48,8 @@ TEST(StepChoice, LooksAtTheLoserEverMoreRarely) {
 
 TEST(StepChoice, ChangesSidesWhenTheSceneDoes) {
   StepChoice choice;
-  (void)Play(&choice, 100, [](bool with) { return with ? 1.0 : 2.0; });
-  const auto steps = Play(&choice, 300, [](bool with) { return with ? 9.0 : 2.0; });
+  (void)Play(&choice, 100, [](bool taken) { return taken ? 1.0 : 2.0; });
+  const auto steps = Play(&choice, 300, [](bool taken) { return taken ? 9.0 : 2.0; });
   EXPECT_GE(Count(steps, 200, 300), 95);
 }
 
