@@ -8,7 +8,7 @@ namespace cairn {
 namespace {
 
 /// Sweeps between two looks at how far the islands have come. The first look is after one sweep:
-/// what rests need not be swept again. The second is where steps begin to watch what sweeps do.
+/// what rests need not be swept again. From the second on, frames are compared; see StepChoice.
 constexpr int kMostSweepsUnseen = 8;
 constexpr int kMarkedSweep = 3;
 

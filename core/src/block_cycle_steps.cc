@@ -27,7 +27,7 @@ double BlockCycle::SureGain() const { return watches_ ? kSureGainOfBudget : kSur
 void BlockCycle::FindCandidates() {
   const int left = settings_->max_sweeps - SweepsMade();
   if (!steps_.asked() || left < std::min(settings_->k_gs, kLeastSweepsAfterStep)) return;
-  // after the step its sweeps, and as many without it, which it has to beat
+  // after the step its sweeps, and, where frames are not compared, as many without it
   const double sweeps =
       (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
   const bool always = settings_->step_policy == StepPolicy::kAlways;

@@ -54,7 +54,7 @@ class BlockStep {
   template <class Lines>
   void CopyTaken(const Lines& from, Lines* to);
 
-  /// function(law of the block, its first x line in the group, its number in the group)
+  /// function(law) for every block of the group
   template <class Function>
   void ForBlocks(const Function& function);
   BlockLaw<T> LawOf(int block);
