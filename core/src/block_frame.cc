@@ -5,6 +5,9 @@
 #include <atomic>
 #include <cstring>
 
+#include "manifold_pack.h"
+#include "validate.h"
+
 namespace cairn {
 namespace {
 
@@ -81,20 +84,40 @@ simd::PairWork BlockFrame::WorkOn(int first_block, int blocks) {
 }
 
 BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
-  return {problem, plan_, movable_, bodies_, omega_, pack_row_};
+  return {.problem = problem,
+          .plan = plan_,
+          .movable = movable_,
+          .bodies = bodies_,
+          .contact_bodies = contact_bodies_,
+          .omega = omega_,
+          .pack_row = pack_row_,
+          .pack_contacts = pack_contacts_};
 }
 
-PackResult BlockFrame::Begin(const ContactProblem& problem, double omega,
-                             std::span<const double> impulses, Crew* crew) {
-  if (!WhitenBodies(problem.bodies, crew)) return PackResult::kChanged;
+bool BlockFrame::SameManifolds(std::span<const Manifold> manifolds) const {
+  // where their points are is not part of the plan
+  const auto same = [](const Manifold& a, const Manifold& b) {
+    return a.body_a == b.body_a && a.body_b == b.body_b && a.points == b.points &&
+           a.tangents == b.tangents && a.soft == b.soft && a.max_sweeps == b.max_sweeps;
+  };
+  return std::equal(manifolds.begin(), manifolds.end(), planned_manifolds_.begin(),
+                    planned_manifolds_.end(), same);
+}
+
+PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const Impulses& impulses,
+                             Crew* crew) {
+  if (!WhitenBodies(problem, crew)) return PackResult::kChanged;
+  for (int i = 0; i < static_cast<int>(problem.manifolds.size()); ++i) {
+    if (ValidateManifold(problem, i) != Status::kOk) return PackResult::kChanged;
+  }
 
   // the plan of the last frame, if nothing began or ended
   PackResult result = PackResult::kChanged;
   const bool alike = planned_ && omega == omega_ && problem.rows.size() == planned_rows_ &&
-                     movable_now_ == movable_;
+                     movable_now_ == movable_ && SameManifolds(problem.manifolds);
   if (alike) result = Pack(problem, impulses, crew);
   if (result == PackResult::kChanged) {
-    planned_ = MakePlan(problem, omega, impulses, crew);
+    planned_ = MakePlan(problem, omega, impulses.rows, crew);
     if (!planned_) return PackResult::kChanged;
     PackerOf(problem).Reserve(&blocks_);
     if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
@@ -109,6 +132,7 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
   movable_.swap(movable_now_);
   omega_ = omega;
   planned_rows_ = problem.rows.size();
+  planned_manifolds_.assign(problem.manifolds.begin(), problem.manifolds.end());
   ++plan_number_;
   laws_.resize(planned_rows_);
   std::atomic<bool> valid{true};
@@ -118,10 +142,13 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
       valid.store(false, std::memory_order_relaxed);
     }
   });
-  return valid && plan_.Make(problem.bodies, laws_, movable_);
+  return valid && plan_.Make(problem, laws_, movable_);
 }
 
-bool BlockFrame::WhitenBodies(std::span<const Body> bodies, Crew* crew) {
+bool BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
+  const std::span<const Body> bodies = problem.bodies;
+  const bool contacts = !problem.manifolds.empty();
+  if (contacts) contact_bodies_.resize(bodies.size());
   bodies_.resize(bodies.size());
   movable_now_.resize(bodies.size());
   std::atomic<bool> valid{true};
@@ -129,13 +156,15 @@ bool BlockFrame::WhitenBodies(std::span<const Body> bodies, Crew* crew) {
     for (int i = first; i < first + count; ++i) {
       movable_now_[i] = MobilityOf(bodies[i]);
       if (!Whiten(bodies[i], &bodies_[i])) valid.store(false, std::memory_order_relaxed);
+      if (!contacts) continue;
+      const ContactMotion* const motion = problem.motions.empty() ? nullptr : &problem.motions[i];
+      contact_bodies_[i] = ContactBodyOf(bodies[i], bodies_[i], motion);
     }
   });
   return valid;
 }
 
-PackResult BlockFrame::Pack(const ContactProblem& problem, std::span<const double> impulses,
-                            Crew* crew) {
+PackResult BlockFrame::Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew) {
   const BlockPacker packer = PackerOf(problem);
   WorstResult worst;
   const auto pack = [&](int unit) {
@@ -155,7 +184,7 @@ void BlockFrame::Start(Crew* crew) {
   crew->Run(&pass);
 }
 
-void BlockFrame::End(const ContactProblem& problem, Crew* crew, std::span<double> impulses,
+void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,
                      std::span<Velocity> velocities) const {
   const BlockPacker packer = PackerOf(problem);
   const auto write = [&](int unit) {

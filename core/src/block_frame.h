@@ -20,9 +20,9 @@ class BlockFrame {
   /// Lays out the problem, with u from the start impulses. On kChanged the input is not valid, on
   /// kOutOfRange it may not be: see Validate().
   [[nodiscard]] PackResult Begin(const ContactProblem& problem, double omega,
-                                 std::span<const double> impulses, Crew* crew);
+                                 const Impulses& impulses, Crew* crew);
   /// Writes the results.
-  void End(const ContactProblem& problem, Crew* crew, std::span<double> impulses,
+  void End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,
            std::span<Velocity> velocities) const;
 
   const Plan& plan() const { return plan_; }
@@ -38,24 +38,28 @@ class BlockFrame {
   simd::PairWork WorkOn(int first_block, int blocks);
 
  private:
-  bool WhitenBodies(std::span<const Body> bodies, Crew* crew);
+  bool WhitenBodies(const ContactProblem& problem, Crew* crew);
   bool MakePlan(const ContactProblem& problem, double omega, std::span<const double> impulses,
                 Crew* crew);
-  PackResult Pack(const ContactProblem& problem, std::span<const double> impulses, Crew* crew);
+  PackResult Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew);
+  bool SameManifolds(std::span<const Manifold> manifolds) const;
   void Start(Crew* crew);
   BlockPacker PackerOf(const ContactProblem& problem) const;
 
   const simd::Target target_ = simd::ChooseTarget().target;
   const simd::PairKernels* kernels_ = &simd::PairKernelsFor(target_);
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
+  simd::ContactRowsKernel pack_contacts_ = simd::ContactRowsKernelFor(target_);
   Plan plan_;
   std::vector<RowLaw> laws_;
+  std::vector<Manifold> planned_manifolds_;
   int plan_number_ = 0;
   double omega_ = 1;
   size_t planned_rows_ = 0;
   bool planned_ = false;
   MovableBodies movable_, movable_now_;
   std::vector<WhitenedBody> bodies_;
+  std::vector<simd::ContactBody> contact_bodies_;
   BlockData blocks_;
   std::vector<simd::BlockError> errors_;
 };

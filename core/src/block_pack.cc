@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "manifold_pack.h"
 #include "row_law.h"
 
 namespace cairn {
@@ -294,26 +295,34 @@ void Grow(size_t size, std::vector<T>* values) {
 void BlockPacker::Reserve(BlockData* blocks) const {
   Grow(plan.data_lines(), &blocks->data);
   Grow(plan.x_lines(), &blocks->x);
+  if (!problem.manifolds.empty())
+    Grow(2 * static_cast<size_t>(plan.x_lines()), &blocks->directions);
   Grow(plan.body_of_slot().size(), &blocks->bodies);
 }
 
-PackResult BlockPacker::Pack(int first_block, int count, std::span<const double> impulses,
+PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulses,
                              BlockData* blocks) const {
   for (int block = first_block; block < first_block + count; ++block) {
-    const PackResult result = OneBlock(*this, block, blocks).Pack(impulses);
+    const bool rows = plan.pair(block, 0).manifold == Pair::kNoManifold;
+    const PackResult result = rows ? OneBlock(*this, block, blocks).Pack(impulses.rows)
+                                   : PackManifolds(*this, block, impulses.points, blocks);
     if (result != PackResult::kDone) return result;
   }
   return PackResult::kDone;
 }
 
 void BlockPacker::WriteImpulses(int first_block, int count, const BlockData& blocks,
-                                std::span<double> impulses) const {
+                                const Impulses& impulses) const {
   for (int i = first_block; i < first_block + count; ++i) {
+    if (plan.pair(i, 0).manifold != Pair::kNoManifold) {
+      WriteManifolds(*this, i, blocks, impulses.points);
+      continue;
+    }
     const simd::PairBlock& block = plan.blocks()[i];
     for (int lane = 0; lane < block.lanes; ++lane) {
       const std::span<const int> rows = plan.rows_of(plan.pair(i, lane));
       for (int k = 0; k < block.row_count; ++k) {
-        impulses[rows[k]] = static_cast<double>(blocks.x[block.x + k].lane[lane]);
+        impulses.rows[rows[k]] = static_cast<double>(blocks.x[block.x + k].lane[lane]);
       }
     }
   }

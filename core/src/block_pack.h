@@ -6,6 +6,7 @@
 
 #include "cairn/contact_problem.h"
 #include "plan.h"
+#include "simd/contact_rows.h"
 #include "simd/pair_block.h"
 #include "simd/row_pack.h"
 #include "whitening.h"
@@ -16,6 +17,7 @@ namespace cairn {
 struct BlockData {
   std::vector<simd::Line> data;        ///< constant during a Solve(); see simd::PairForm
   std::vector<simd::Line> x;           ///< impulses
+  std::vector<simd::Line> directions;  ///< of friction, where manifolds are; see manifold_pack
   std::vector<simd::BodyLane> bodies;  ///< u, by slot of the plan
 };
 
@@ -34,18 +36,19 @@ struct BlockPacker {
   const Plan& plan;
   const MovableBodies& movable;
   std::span<const WhitenedBody> bodies;
+  std::span<const simd::ContactBody> contact_bodies;  ///< if there are manifolds
   double omega;
   simd::RowPackKernel pack_row;
+  simd::ContactRowsKernel pack_contacts;
 
   /// Makes room.
   void Reserve(BlockData* blocks) const;
   /// Rows of so many blocks from the first on; x from the caller's impulses, brought inside their
   /// bounds.
-  PackResult Pack(int first_block, int count, std::span<const double> impulses,
-                  BlockData* blocks) const;
+  PackResult Pack(int first_block, int count, const Impulses& impulses, BlockData* blocks) const;
   /// Impulses of the caller from x.
   void WriteImpulses(int first_block, int count, const BlockData& blocks,
-                     std::span<double> impulses) const;
+                     const Impulses& impulses) const;
   /// Velocities of so many bodies from the first on.
   void WriteVelocities(int first_body, int count, const BlockData& blocks,
                        std::span<Velocity> velocities) const;

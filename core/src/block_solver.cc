@@ -22,10 +22,11 @@ class Shift {
 }  // namespace
 
 PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
-                              BudgetMeter* meter, std::span<double> impulses,
+                              BudgetMeter* meter, const Impulses& impulses,
                               std::span<Velocity> velocities, Report* report) {
   crew_.Follow(settings);
-  Crew* const crew = problem.rows.size() < kParallelRows ? &alone_ : &crew_;
+  const size_t rows = problem.rows.size() + static_cast<size_t>(ContactRows(problem));
+  Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
   const Shift shift(crew);
   const PackResult begun = frame_.Begin(problem, OmegaOf(settings), impulses, crew);
   if (begun != PackResult::kDone) return begun;

@@ -20,7 +20,7 @@ class BlockSolver {
   /// kDone: solved, and the islands of the report are filled in. Otherwise nothing is written: on
   /// kChanged the input is not valid.
   [[nodiscard]] PackResult Solve(const ContactProblem& problem, const Settings& settings,
-                                 BudgetMeter* meter, std::span<double> impulses,
+                                 BudgetMeter* meter, const Impulses& impulses,
                                  std::span<Velocity> velocities, Report* report);
   IslandMemories& memories() { return memories_; }
 

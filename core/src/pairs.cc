@@ -33,14 +33,16 @@ bool MayBound(const RowLaw& parent, const RowLaw& row) {
 
 }  // namespace
 
-int ShapeTable::Intern(std::span<const simd::RowShape> rows) {
+int ShapeTable::Intern(std::span<const simd::RowShape> rows, RowSource source) {
   // few shapes exist at a time, and neighbours mostly have the same: a search from the newest
   for (int shape = size() - 1; shape >= 0; --shape) {
     const auto known = this->rows(shape);
+    if (sources_[shape] != source) continue;
     if (std::equal(known.begin(), known.end(), rows.begin(), rows.end())) return shape;
   }
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   begin_.push_back(static_cast<int>(rows_.size()));
+  sources_.push_back(source);
   return size() - 1;
 }
 
@@ -57,6 +59,7 @@ int ShapeTable::lines(simd::PairForm form, int shape) const {
 void ShapeTable::Clear() {
   rows_.clear();
   begin_.resize(1);
+  sources_.clear();
 }
 
 namespace {
@@ -79,7 +82,8 @@ int PairFinder::Look(int a, int b, bool contact) {
   const size_t mask = table_.size() - 1;
   for (size_t at = Hash(a, b, contact) & mask;; at = (at + 1) & mask) {
     if (table_[at] == 0) {
-      list_->pairs.push_back({a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0});
+      list_->pairs.push_back(
+          {a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0, Pair::kNoManifold});
       table_[at] = static_cast<int>(list_->pairs.size());
       return table_[at] - 1;
     }
@@ -103,8 +107,8 @@ int PairFinder::PairOf(const RowLaw& law, size_t index) {
   return Look(a, b, contact);
 }
 
-bool PairFinder::Find(std::span<const RowLaw> laws, const MovableBodies& movable,
-                      ShapeTable* shapes, PairList* list) {
+bool PairFinder::Find(std::span<const RowLaw> laws, std::span<const Manifold> manifolds,
+                      const MovableBodies& movable, ShapeTable* shapes, PairList* list) {
   laws_ = laws;
   movable_ = &movable;
   list_ = list;
@@ -133,7 +137,48 @@ bool PairFinder::Find(std::span<const RowLaw> laws, const MovableBodies& movable
   }
   HandOutRows();
   FindShapes(shapes);
+  AddManifolds(manifolds, shapes);
   return true;
+}
+
+int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
+  scratch_.assign(
+      manifold.points,
+      {.bound = simd::RowBound::kPush, .soft = manifold.soft, .max_sweeps = manifold.max_sweeps});
+  for (int p = 0; p < manifold.points; ++p) {
+    scratch_.resize(scratch_.size() + manifold.tangents, {.bound = simd::RowBound::kFriction,
+                                                          .parent = static_cast<std::int16_t>(p),
+                                                          .max_sweeps = manifold.max_sweeps});
+  }
+  return shapes->Intern(scratch_, RowSource::kManifold);
+}
+
+void PairFinder::AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes) {
+  const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
+  const Manifold* last = nullptr;
+  int shape = 0;
+  for (size_t i = 0; i < manifolds.size(); ++i) {
+    const Manifold& manifold = manifolds[i];
+    const bool alike = last != nullptr && last->points == manifold.points &&
+                       last->tangents == manifold.tangents && last->soft == manifold.soft &&
+                       last->max_sweeps == manifold.max_sweeps;
+    if (!alike) shape = ShapeOf(manifold, shapes);
+    last = &manifold;
+
+    Pair& pair = list_->pairs.emplace_back();
+    pair = {.a = moves(manifold.body_a) ? manifold.body_a : kWorld,
+            .b = moves(manifold.body_b) ? manifold.body_b : kWorld,
+            .row_a = manifold.body_a,
+            .row_b = manifold.body_b,
+            .first = 0,
+            .rows = manifold.rows(),
+            .form = simd::PairForm::kJoint,
+            .contact = true,
+            .shape = shape,
+            .manifold = static_cast<int>(i)};
+    if (pair.a == kWorld) std::swap(pair.a, pair.b);
+    pair.form = FormOf(*movable_, pair);
+  }
 }
 
 void PairFinder::HandOutRows() {
@@ -163,7 +208,7 @@ void PairFinder::FindShapes(ShapeTable* shapes) {
       const int parent = laws_[row].parent;
       if (parent != kNoRow) scratch_.back().parent = static_cast<std::int16_t>(place_[parent]);
     }
-    pair.shape = shapes->Intern(scratch_);
+    pair.shape = shapes->Intern(scratch_, RowSource::kRows);
   }
 }
 

@@ -14,17 +14,23 @@ namespace cairn {
 struct Pair {
   int a, b;          ///< bodies of the problem; b is kWorld unless both can move
   int row_a, row_b;  ///< bodies of its first row
-  int first, rows;   ///< its part of PairList::rows
+  int first, rows;   ///< its part of PairList::rows; of a manifold, the number of its rows alone
   simd::PairForm form;
   bool contact;  ///< begins with a row that only pushes: swept after joints
   int shape;     ///< of its rows, in ShapeTable
+  int manifold = kNoManifold;
+
+  static constexpr int kNoManifold = -1;
 };
 
-/// Sequences of row shapes, each once.
+/// Where the numbers of rows come from.
+enum class RowSource : char { kRows, kManifold };
+
+/// Sequences of row shapes, each once for each source.
 class ShapeTable {
  public:
   /// The number of the shape.
-  int Intern(std::span<const simd::RowShape> rows);
+  int Intern(std::span<const simd::RowShape> rows, RowSource source);
   std::span<const simd::RowShape> rows(int shape) const;
   /// Lines of all rows of the shape.
   int lines(simd::PairForm form, int shape) const;
@@ -34,11 +40,12 @@ class ShapeTable {
  private:
   std::vector<simd::RowShape> rows_;
   std::vector<int> begin_ = {0};
+  std::vector<RowSource> sources_;
 };
 
 /// The structure of a problem: who touches whom, with what kind of rows. No numbers.
 struct PairList {
-  std::vector<Pair> pairs;  ///< In the order of their first row.
+  std::vector<Pair> pairs;  ///< In the order of their first row; manifolds last.
   std::vector<int> rows;    ///< Problem rows, pair by pair, ascending within a pair.
 
   std::span<const int> rows_of(const Pair& pair) const {
@@ -57,14 +64,18 @@ Mobility MobilityOf(const Body& body);
 
 /// Collects the rows of each pair of bodies. Consecutive rows of the same bodies stay together; a
 /// friction row goes with its parent, other rows with earlier ones of the same bodies and kind.
+/// Manifolds are a pair each.
 class PairFinder {
  public:
   /// Fills the list, and @p shapes as far as new. False if a row has no parent that it may have: an
   /// earlier one of the same bodies, which has none itself.
-  [[nodiscard]] bool Find(std::span<const RowLaw> laws, const MovableBodies& movable,
-                          ShapeTable* shapes, PairList* list);
+  /// @pre the manifolds are valid
+  [[nodiscard]] bool Find(std::span<const RowLaw> laws, std::span<const Manifold> manifolds,
+                          const MovableBodies& movable, ShapeTable* shapes, PairList* list);
 
  private:
+  void AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes);
+  int ShapeOf(const Manifold& manifold, ShapeTable* shapes);
   int PairOf(const RowLaw& law, size_t index);
   int Look(int a, int b, bool contact);
   void HandOutRows();

@@ -33,9 +33,10 @@ bool Shares(const simd::PairBlock& block, int a, int b) {
 
 }  // namespace
 
-bool Plan::Make(std::span<const Body> bodies, std::span<const RowLaw> laws,
+bool Plan::Make(const ContactProblem& problem, std::span<const RowLaw> laws,
                 const MovableBodies& movable) {
-  if (!pair_finder_.Find(laws, movable, &shapes_, &list_)) return false;
+  const std::span<const Body> bodies = problem.bodies;
+  if (!pair_finder_.Find(laws, problem.manifolds, movable, &shapes_, &list_)) return false;
   colouring_.Update(bodies, list_.pairs);
   FindIslands(static_cast<int>(bodies.size()));
   FindGroups();

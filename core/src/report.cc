@@ -19,7 +19,7 @@ std::string_view Describe(Status status) {
       return "an inverse mass is negative, or an inverse inertia is not symmetric positive "
              "semidefinite";
     case Status::kNoSuchBody:
-      return "a row names a body that is not there, or the same body twice";
+      return "a row or manifold names a body that is not there, or the same body twice";
     case Status::kBadBounds:
       return "the lower bound of a row is above its upper bound, or a friction row may not be zero";
     case Status::kBadCompliance:
@@ -29,7 +29,7 @@ std::string_view Describe(Status status) {
              "bounds of "
              "its own";
     case Status::kBadFriction:
-      return "a friction coefficient is negative";
+      return "a coefficient of friction or restitution is negative";
     case Status::kBadDiagonal:
       return "a diagonal entry of the matrix is missing, zero or negative";
     case Status::kNotSymmetric:

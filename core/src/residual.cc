@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cairn/contact_problem.h"
+#include "contact_expansion.h"
 #include "islands.h"
 #include "validate.h"
 
@@ -35,10 +36,10 @@ void Accumulate(const Residual& part, Report* report) {
   report->residual_energy = std::hypot(report->residual_energy, part.energy);
 }
 
-Report Measure(const ContactProblem& problem, std::span<const double> impulses) {
-  Report report = Validate(problem, impulses);
-  if (!report.ok()) return report;
+namespace {
 
+Report MeasureRows(const ContactProblem& problem, std::span<const double> impulses) {
+  Report report;
   const Packer packer(problem, Settings{});
   for (const Island& island : FindIslands(problem)) {
     const PackedIsland packed = packer.Pack(island);
@@ -53,6 +54,27 @@ Report Measure(const ContactProblem& problem, std::span<const double> impulses) 
     part.residual = MeasureResidual(packed, state);
     Accumulate(part.residual, &report);
   }
+  return report;
+}
+
+}  // namespace
+
+Report Measure(const ContactProblem& problem, std::span<const double> impulses) {
+  std::vector<double> rows(impulses.begin(), impulses.end());
+  std::vector<ContactImpulse> points(problem.points.size());
+  const size_t contact_rows = rows.size() - std::min(rows.size(), problem.rows.size());
+  Impulses given{.rows = rows, .points = points};
+  if (!problem.manifolds.empty()) given.rows = given.rows.first(rows.size() - contact_rows);
+  Report report = Validate(problem, given);
+  if (!report.ok() || problem.manifolds.empty()) {
+    return report.ok() ? MeasureRows(problem, impulses) : report;
+  }
+
+  const ContactExpansion expansion(problem, given);
+  if (expansion.problem().rows.size() == impulses.size()) {
+    return MeasureRows(expansion.problem(), impulses);
+  }
+  report.status = Status::kWrongSize;
   return report;
 }
 

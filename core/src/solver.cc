@@ -7,6 +7,7 @@
 
 #include "block_solver.h"
 #include "budget.h"
+#include "contact_expansion.h"
 #include "cycle.h"
 #include "islands.h"
 #include "lcp_solver.h"
@@ -23,16 +24,19 @@ constexpr double kFinestFloatTolerance = 1e-5;
 /// Which of two reasons says more about why the whole did not get further.
 StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
 
-bool InBlocks(const Settings& settings) {
+bool InBlocks(const ContactProblem& problem, const Settings& settings) {
+  // manifolds become blocks with the step length of Gauss-Seidel only
+  if (!problem.manifolds.empty() && OmegaOf(settings) != 1) return false;
   if (settings.order == SweepOrder::kAutomatic) {
     return settings.tolerance == 0 || settings.tolerance >= kFinestFloatTolerance;
   }
   return settings.order == SweepOrder::kColoured;
 }
 
-BudgetMeter MeterOf(const Settings& settings, size_t rows, WorkPrices* prices) {
+BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
   if (settings.replay != nullptr) return BudgetMeter(*settings.replay, prices);
-  return BudgetMeter(settings.budget, static_cast<double>(rows), prices);
+  const double rows = static_cast<double>(problem.rows.size()) + ContactRows(problem);
+  return BudgetMeter(settings.budget, rows, prices);
 }
 
 /// Adds up what was done on the islands.
@@ -51,6 +55,8 @@ void SumUp(Report* report) {
 }  // namespace
 
 struct Solver::Impl {
+  void SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
+                     std::span<Velocity> velocities, Report* report);
   /// Row by row in double precision, in the order of the problem: the reference.
   void SolveRows(const ContactProblem& problem, BudgetMeter* meter, std::span<double> impulses,
                  std::span<Velocity> velocities, Report* report);
@@ -61,6 +67,17 @@ struct Solver::Impl {
   LcpSolver lcp;
   Observer observer;
 };
+
+void Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
+                                 const Impulses& impulses, std::span<Velocity> velocities,
+                                 Report* report) {
+  if (problem.manifolds.empty()) {
+    return SolveRows(problem, meter, impulses.rows, velocities, report);
+  }
+  ContactExpansion expansion(problem, impulses);
+  SolveRows(expansion.problem(), meter, expansion.impulses(), velocities, report);
+  expansion.Write(impulses);
+}
 
 void Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter,
                              std::span<double> impulses, std::span<Velocity> velocities,
@@ -140,14 +157,14 @@ Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorX
   return report;
 }
 
-Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
+Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                      std::span<Velocity> velocities) {
   Report report;
   Solve(problem, impulses, velocities, &report);
   return report;
 }
 
-void Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
+void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                    std::span<Velocity> velocities, Report* report) {
   // all but the memory of an earlier report
   std::vector<IslandReport> islands = std::move(report->islands);
@@ -163,16 +180,17 @@ void Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
     report->status = Status::kBadSettings;
   }
   if (!report->ok()) return;
-  if (problem.bodies.empty() || impulses.size() != problem.rows.size()) {
+  const bool sizes = HasValidSizes(problem, impulses);
+  if (problem.bodies.empty() || !sizes) {
     report->status = Validate(problem, impulses).status;
     return;
   }
   if (velocities.size() != problem.bodies.size()) report->status = Status::kWrongSize;
   if (!report->ok()) return;
 
-  bool in_blocks = InBlocks(settings);
+  bool in_blocks = InBlocks(problem, settings);
   WorkPrices* const prices = in_blocks ? &impl_->block_prices : &impl_->row_prices;
-  BudgetMeter meter = MeterOf(settings, problem.rows.size(), prices);
+  BudgetMeter meter = MeterOf(settings, problem, prices);
   meter.Record(&report->replay);
   if (in_blocks) {
     const PackResult result =
@@ -184,8 +202,9 @@ void Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
     report->status = checked.status;
     report->bad_row = checked.bad_row;
     report->bad_body = checked.bad_body;
+    report->bad_manifold = checked.bad_manifold;
     if (!report->ok()) return;
-    impl_->SolveRows(problem, &meter, impulses, velocities, report);
+    impl_->SolveInDouble(problem, &meter, impulses, velocities, report);
   }
   meter.ChargeFinish();
   SumUp(report);

@@ -56,6 +56,34 @@ Status CheckRow(const ContactProblem& problem, int index) {
   return CheckParent(problem.rows, index);
 }
 
+bool Finite(const ContactMotion& motion) {
+  float zero = 0;
+  for (int k = 0; k < 3; ++k) {
+    zero += 0 * motion.free_velocity[k] + 0 * motion.free_spin[k];
+    zero += 0 * motion.start_velocity[k] + 0 * motion.start_spin[k];
+  }
+  return zero == 0;
+}
+
+/// Its points, and where they start.
+Status CheckPoints(const ContactProblem& problem, const Manifold& manifold,
+                   std::span<const ContactImpulse> start) {
+  for (int p = manifold.first_point; p < manifold.first_point + manifold.points; ++p) {
+    const ContactPoint& point = problem.points[p];
+    const ContactImpulse& impulse = start[p];
+    float zero = 0 * point.bias + 0 * point.restitution + 0 * point.friction;
+    zero += 0 * impulse.normal + 0 * impulse.tangential[0] + 0 * impulse.tangential[1];
+    if (manifold.soft) zero += 0 * point.compliance;
+    for (int k = 0; k < 3; ++k) {
+      zero += 0 * point.arm_a[k] + 0 * point.arm_b[k] + 0 * point.normal[k] + 0 * point.tangent[k];
+    }
+    if (zero != 0) return Status::kNotFinite;
+    if (point.friction < 0 || point.restitution < 0) return Status::kBadFriction;
+    if (manifold.soft && point.compliance < 0) return Status::kBadCompliance;
+  }
+  return Status::kOk;
+}
+
 constexpr int kMostThreads = 1024;
 
 bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
@@ -110,28 +138,58 @@ Status ValidateRow(const ContactProblem& problem, int row, double impulse) {
   return std::isfinite(impulse) ? CheckRow(problem, row) : Status::kNotFinite;
 }
 
-Report Validate(const ContactProblem& problem, std::span<const double> impulses) {
+bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses) {
+  if (impulses.rows.size() != problem.rows.size()) return false;
+  const bool motions = problem.motions.empty() || problem.motions.size() == problem.bodies.size();
+  return problem.manifolds.empty() || (motions && impulses.points.size() == problem.points.size());
+}
+
+Status ValidateManifold(const ContactProblem& problem, int index) {
+  const Manifold& manifold = problem.manifolds[index];
+  const int bodies = static_cast<int>(problem.bodies.size());
+  const auto known = [bodies](int body) { return body >= kWorld && body < bodies; };
+  if (!known(manifold.body_a) || !known(manifold.body_b)) return Status::kNoSuchBody;
+  if (manifold.body_a == manifold.body_b) return Status::kNoSuchBody;
+
+  const bool points = Inside(manifold.points, 1, Manifold::kMostPoints) &&
+                      Inside(manifold.tangents, 0, 2) && manifold.first_point >= 0;
+  const auto end = static_cast<std::int64_t>(manifold.first_point) + manifold.points;
+  const bool there = end <= static_cast<std::int64_t>(problem.points.size());
+  return points && there ? Status::kOk : Status::kWrongSize;
+}
+
+Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   Report report;
-  if (problem.bodies.empty()) {
-    report.status = Status::kEmptyProblem;
-    return report;
-  }
-  if (impulses.size() != problem.rows.size()) {
-    report.status = Status::kWrongSize;
-    return report;
-  }
-  for (int body = 0; body < static_cast<int>(problem.bodies.size()); ++body) {
-    report.status = CheckBody(problem.bodies[body]);
-    if (report.ok()) continue;
-    report.bad_body = body;
-    return report;
-  }
-  for (int row = 0; row < static_cast<int>(problem.rows.size()); ++row) {
-    report.status = ValidateRow(problem, row, impulses[row]);
-    if (report.ok()) continue;
-    report.bad_row = row;
-    return report;
-  }
+  // the first of many that is refused
+  const auto refused = [&report](size_t count, const auto& status_of, int* bad) {
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      report.status = status_of(i);
+      if (report.ok()) continue;
+      *bad = i;
+      return true;
+    }
+    return false;
+  };
+  const bool sizes = HasValidSizes(problem, impulses);
+  if (problem.bodies.empty()) report.status = Status::kEmptyProblem;
+  if (report.ok() && !sizes) report.status = Status::kWrongSize;
+  if (!report.ok()) return report;
+
+  const auto body = [&](int i) {
+    const bool finite = problem.motions.empty() || Finite(problem.motions[i]);
+    return finite ? CheckBody(problem.bodies[i]) : Status::kNotFinite;
+  };
+  const auto row = [&](int i) { return ValidateRow(problem, i, impulses.rows[i]); };
+  const auto manifold = [&](int i) {
+    const Status status = ValidateManifold(problem, i);
+    return status == Status::kOk ? CheckPoints(problem, problem.manifolds[i], impulses.points)
+                                 : status;
+  };
+  if (refused(problem.bodies.size(), body, &report.bad_body)) return report;
+  if (refused(problem.rows.size(), row, &report.bad_row)) return report;
+  const float bounce = problem.contact_law.bounce_speed;
+  if (!(bounce >= 0)) report.status = Status::kNotFinite;
+  if (report.ok()) refused(problem.manifolds.size(), manifold, &report.bad_manifold);
   return report;
 }
 

@@ -10,8 +10,15 @@
 namespace cairn {
 
 /// The one place where input is judged. Everything behind it may rely on what it checks.
-/// On a status other than kOk, bad_row or bad_body of the report names the first offender.
-Report Validate(const ContactProblem& problem, std::span<const double> impulses);
+/// On a status other than kOk, bad_row, bad_body or bad_manifold of the report names the first
+/// offender.
+Report Validate(const ContactProblem& problem, const Impulses& impulses);
+
+/// Starts, and motions, belong to the problem.
+bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses);
+
+/// What a manifold says of itself; not its points.
+Status ValidateManifold(const ContactProblem& problem, int manifold);
 
 /// One row of it. @pre the bodies are valid
 Status ValidateRow(const ContactProblem& problem, int row, double impulse);

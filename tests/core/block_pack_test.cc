@@ -30,7 +30,7 @@ struct Laid {
 
   PackResult Begin(const Scene& scene, std::vector<double> start = {}, double omega = 1) {
     start.resize(scene.rows.size());
-    return frame.Begin(scene.problem(), omega, start, &crew);
+    return frame.Begin(scene.problem(), omega, {.rows = start}, &crew);
   }
 };
 
@@ -149,7 +149,7 @@ TEST(BlockPack, AndBackGivesTheProjectedStartAndItsVelocities) {
     ASSERT_EQ(laid.Begin(scene, start), PackResult::kDone);
     std::vector<double> impulses(start.size());
     std::vector<Velocity> velocities(scene.bodies.size());
-    laid.frame.End(scene.problem(), &laid.crew, impulses, velocities);
+    laid.frame.End(scene.problem(), &laid.crew, {.rows = impulses}, velocities);
     for (size_t i = 0; i < start.size(); ++i) EXPECT_NEAR(impulses[i], expected[i], 2 * kFloat);
 
     std::vector<Velocity> by_hand;

@@ -164,7 +164,7 @@ std::vector<RowLaw> LawsOf(const Scene& scene, double omega) {
 }
 
 void MakePlan(const Scene& scene, double omega, Plan* plan) {
-  EXPECT_TRUE(plan->Make(scene.bodies, LawsOf(scene, omega), MovableOf(scene)));
+  EXPECT_TRUE(plan->Make(scene.problem(), LawsOf(scene, omega), MovableOf(scene)));
 }
 
 Settings Coloured(int sweeps) {

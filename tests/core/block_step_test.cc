@@ -33,7 +33,7 @@ struct Blocks {
 
   Blocks(const Scene& of, std::vector<double> start, int threads = 1)
       : scene(of), crew(threads), x(std::move(start)), v(of.bodies.size()) {
-    EXPECT_EQ(frame.Begin(scene.problem(), 1, x, &crew), PackResult::kDone);
+    EXPECT_EQ(frame.Begin(scene.problem(), 1, {.rows = x}, &crew), PackResult::kDone);
     islands.assign(frame.plan().islands().size(), {.taken = true, .proximal = kSettings.proximal});
   }
 
@@ -45,7 +45,7 @@ struct Blocks {
       system.Prepare(frame.plan(), 1, group);
       step.Take(frame.plan(), group, settings, &system, &crew, &frame.blocks(), islands);
     }
-    frame.End(scene.problem(), &crew, x, v);
+    frame.End(scene.problem(), &crew, {.rows = x}, v);
   }
 };
 
@@ -98,7 +98,7 @@ TEST(BlockStep, LeavesVelocitiesThatBelongToItsImpulses) {
   Blocks blocks(scene, Swept(scene, 10));
   blocks.Take<float>();
   Blocks again(scene, blocks.x);
-  again.frame.End(scene.problem(), &again.crew, again.x, again.v);
+  again.frame.End(scene.problem(), &again.crew, {.rows = again.x}, again.v);
   EXPECT_EQ(blocks.x, again.x);
   EXPECT_LT(test::Distance(blocks.v, again.v), 1e-5);
 }
@@ -125,7 +125,7 @@ TEST(BlockStep, ChangesNothingOnIslandsThatDoNotTakeIt) {
   const Scene scene = test::Together({test::Tower(5), test::Tower(5), test::Tower(7)});
   const std::vector<double> start = Swept(scene, 10);
   Blocks untouched(scene, start), some(scene, start), all(scene, start);
-  untouched.frame.End(scene.problem(), &untouched.crew, untouched.x, untouched.v);
+  untouched.frame.End(scene.problem(), &untouched.crew, {.rows = untouched.x}, untouched.v);
   some.islands[1].taken = false;
   some.Take<float>();
   all.Take<float>();

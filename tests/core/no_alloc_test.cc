@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "block_problems.h"
+#include "manifold_problems.h"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CAIRN_COUNTS_ALLOCATIONS 1
@@ -216,6 +217,30 @@ TEST_F(NoAlloc, InTheThirdRoundOfChangingContacts) {
       EXPECT_TRUE(report.ok());
       if (round == 2) {
         EXPECT_EQ(allocated, 0) << box;
+      }
+    }
+  }
+}
+
+TEST_F(NoAlloc, WhileManifoldsBeginAndEnd) {
+  const test::ManifoldScene whole = test::RandomManifolds(400, 1200, 1);
+  for (const int threads : {1, 2}) {
+    Settings settings = Coloured(10);
+    settings.threads = threads;
+    Solver solver(settings);
+    test::ManifoldScene scene = whole;
+    std::vector<Velocity> velocities(scene.bodies.size());
+    Report report;
+    for (int frame = 0; frame < 30; ++frame) {
+      scene.manifolds = whole.manifolds;
+      scene.manifolds.erase(scene.manifolds.begin() + frame % 10 * 100);
+      const ContactProblem problem = scene.problem();
+      const Impulses impulses = scene.impulses();
+      const auto solve = [&] { solver.Solve(problem, impulses, velocities, &report); };
+      const long allocated = AllocationsOf(solve);
+      EXPECT_TRUE(report.ok());
+      if (frame >= 20) {
+        EXPECT_EQ(allocated, 0) << frame;
       }
     }
   }

@@ -27,7 +27,7 @@ struct Found {
   explicit Found(const Scene& scene, double omega = 1) { Add(scene, omega); }
   void Add(const Scene& scene, double omega = 1) {
     PairFinder finder;
-    EXPECT_TRUE(finder.Find(test::LawsOf(scene, omega), test::MovableOf(scene), &shapes, &list));
+    EXPECT_TRUE(finder.Find(test::LawsOf(scene, omega), {}, test::MovableOf(scene), &shapes, &list));
   }
   std::vector<int> rows(int pair) const {
     const auto rows = list.rows_of(list.pairs[pair]);
@@ -211,7 +211,7 @@ TEST(Pairs, AreNotFoundWhereAParentMayNotBeOne) {
     PairFinder finder;
     ShapeTable shapes;
     PairList list;
-    return finder.Find(test::LawsOf(scene, 1), test::MovableOf(scene), &shapes, &list);
+    return finder.Find(test::LawsOf(scene, 1), {}, test::MovableOf(scene), &shapes, &list);
   };
   EXPECT_TRUE(found(3));
   EXPECT_FALSE(found(0)) << "other bodies";

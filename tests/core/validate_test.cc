@@ -240,7 +240,7 @@ TEST(Validate, NamesTheFirstOffenderAndBodiesBeforeRows) {
 
 TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
   Solver solver;
-  EXPECT_EQ(solver.Solve(ContactProblem{}, {}, {}).status, Status::kEmptyProblem);
+  EXPECT_EQ(solver.Solve(ContactProblem{}, Impulses{}, {}).status, Status::kEmptyProblem);
   EXPECT_EQ(Measure(ContactProblem{}, {}).status, Status::kEmptyProblem);
 
   const Scene scene = GoodScene();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "cairn/manifold.h"
 #include "cairn/report.h"
 
 namespace cairn {
@@ -64,17 +65,34 @@ struct Row {
 /// mixed LCP of the paper [1] with matrix J M^-1 J' + E; friction bounds depend on other impulses.
 ///
 /// The order of the rows matters with SweepOrder::kForward, and among the rows of two bodies.
+/// Contacts may be given as rows, or as manifolds: their rows follow @p rows, manifold by manifold,
+/// first the normals of its points, then the friction of each. Manifolds are several times faster.
 ///
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.
 struct ContactProblem {
   std::span<const Body> bodies;
   std::span<const Row> rows;
+  std::span<const Manifold> manifolds = {};
+  std::span<const ContactPoint> points = {};  ///< Of the manifolds; others are not looked at.
+  ContactLaw contact_law = {};
+  /// One per body, or none. What contacts see instead of the motion of the bodies, where these are
+  /// at rest because velocities are counted from the start of the step.
+  std::span<const ContactMotion> motions = {};
 };
 
-/// Measures given impulses, one per row, in double precision and from the problem alone: the same
-/// yardstick for every solver. Fills the residuals of the report, in all and per island; bad input
-/// is answered as by Solver::Solve().
+/// Rows of the manifolds of a problem.
+int ContactRows(const ContactProblem& problem);
+
+/// Impulses of a problem: where a Solve() starts, and what comes of it.
+struct Impulses {
+  std::span<double> rows;                 ///< One per row [N s] or [N m s].
+  std::span<ContactImpulse> points = {};  ///< One per point of contact.
+};
+
+/// Measures given impulses, one per row (those of manifolds follow), in double precision and from
+/// the problem alone: the same yardstick for every solver. Fills the residuals of the report, in
+/// all and per island; bad input is answered as by Solver::Solve().
 [[nodiscard]] Report Measure(const ContactProblem& problem, std::span<const double> impulses);
 
 }  // namespace cairn

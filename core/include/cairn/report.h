@@ -15,15 +15,16 @@ enum class Status {
   kOk,
   kBadSettings,   ///< A field of Settings is out of its range.
   kEmptyProblem,  ///< No bodies.
-  kWrongSize,     ///< A span of results does not have one entry per row or body.
+  kWrongSize,     ///< A span of results does not have one entry per row, point or body, or a
+                  ///< manifold has points that are not there.
   kNotFinite,     ///< NaN, or infinity anywhere but in a bound.
   kBadMass,     ///< Negative inverse mass, or inverse inertia not symmetric positive semidefinite.
-  kNoSuchBody,  ///< A row names a body that is not there, or the same body twice.
+  kNoSuchBody,  ///< A row or manifold names a body that is not there, or the same one twice.
   kBadBounds,   ///< lo > hi.
   kBadCompliance,  ///< Negative compliance, or relaxation outside (0, 2).
   kBadParent,      ///< The parent of a friction row comes later, is itself a friction row, or
                    ///< joins other bodies.
-  kBadFriction,    ///< Negative friction coefficient.
+  kBadFriction,    ///< Negative friction coefficient, or restitution.
   kBadDiagonal,    ///< A diagonal entry of the matrix is missing, zero or negative.
   kNotSymmetric,   ///< M_ij and M_ji differ by more than rounding.
   /// A matrix could not be factorised, even with a proximal term of 1e-7 of its diagonal, or sweeps
@@ -96,8 +97,9 @@ struct Replay {
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
   Status status = Status::kOk;
-  int bad_row = -1;   ///< First row refused, -1 if what is wrong is not a row.
-  int bad_body = -1;  ///< First body refused, -1 likewise.
+  int bad_row = -1;       ///< First row refused, -1 if what is wrong is not a row.
+  int bad_body = -1;      ///< First body refused, -1 likewise.
+  int bad_manifold = -1;  ///< First manifold refused, -1 likewise.
 
   double residual_max = 0;      ///< Residual::max over all islands [m/s].
   double residual_angular = 0;  ///< Residual::max_angular over all islands [rad/s].

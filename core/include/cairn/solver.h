@@ -40,16 +40,26 @@ class Solver {
   const Settings& settings() const;
 
   /// Solves one time step.
-  /// @param[in,out] impulses  one per row [N s]: the start (a warm start, or zeros; brought inside
-  ///                          the bounds first) and the result.
+  /// @param[in,out] impulses  one per row and one per point of contact: the start (a warm start, or
+  ///                          zeros; brought inside the bounds first) and the result.
   /// @param[out] velocities   one per body: velocities at the end of the step.
-  /// Bad input: Report::status says what, Report::bad_row or bad_body where, nothing is written.
-  [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
+  /// Bad input: Report::status says what, Report::bad_row, bad_body or bad_manifold where, nothing
+  /// is written.
+  [[nodiscard]] Report Solve(const ContactProblem& problem, const Impulses& impulses,
                              std::span<Velocity> velocities);
   /// The same into a report of an earlier call, whose memory is used again. Once a problem has been
   /// solved, one that is no larger is solved without allocating, subspace steps apart.
-  void Solve(const ContactProblem& problem, std::span<double> impulses,
+  void Solve(const ContactProblem& problem, const Impulses& impulses,
              std::span<Velocity> velocities, Report* report);
+  /// A problem without manifolds.
+  [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
+                             std::span<Velocity> velocities) {
+    return Solve(problem, Impulses{.rows = impulses}, velocities);
+  }
+  void Solve(const ContactProblem& problem, std::span<double> impulses,
+             std::span<Velocity> velocities, Report* report) {
+    Solve(problem, Impulses{.rows = impulses}, velocities, report);
+  }
 
   /// Solves a problem in matrix form. Our differences from the paper in Method::kPgsSm: rows join
   /// the set by the sign of w, too, a singular reduced matrix gets a proximal term, interior point

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace cairn {
+
+/// Where two bodies touch. In floats, a cache line: kernels make rows of it, 16 manifolds at a
+/// time, and no Row is ever written.
+///
+/// The rows of a point, with vectors for body_a (opposite ones for body_b):
+///   normal:   lo = 0, hi = infinity, target = bias + bounce,
+///   friction: along t1, and along t2 = t1 x normal where the manifold asks for two directions;
+///             bounds +-friction x_normal, target 0.
+/// bounce = -restitution vn where the bodies approach faster than ContactLaw::bounce_speed (vn: the
+/// velocity along the normal before external impulses), else 0.
+struct ContactPoint {
+  float arm_a[3];   ///< From the centre of mass of body_a to the point [m], world axes.
+  float arm_b[3];   ///< Likewise.
+  float normal[3];  ///< Unit vector, from body_b to body_a.
+  /// t1, a unit vector across the normal; zeros: where the point slides to, or any direction if it
+  /// does not slide.
+  float tangent[3];
+  float bias;         ///< Velocity asked for along the normal: penetration, gaps [m/s].
+  float restitution;  ///< >= 0
+  float friction;     ///< Coefficient, >= 0.
+  float compliance;   ///< E of the normal row [1/kg], >= 0; read if Manifold::soft.
+};
+
+/// What a point of contact exerts on body_a (and its opposite on body_b). As a start: that of an
+/// earlier frame, or zeros.
+struct ContactImpulse {
+  float normal = 0;              ///< [N s]
+  float tangential[2] = {0, 0};  ///< Along t1 and t2 [N s].
+  /// Of t1 in the plane across the normal, for the next frame: a start is turned into directions of
+  /// its own. Where atan2 has pi / 2 it has 2, and so on from 1 to 5; anything else is a t1 along
+  /// the first axis of the plane.
+  float heading = 0;
+  float direction[3] = {0, 0, 0};  ///< t1; of a start, it is not looked at.
+};
+
+/// How a body moves before and after external impulses, where ContactProblem::motions says so.
+struct ContactMotion {
+  float free_velocity[3], free_spin[3];    ///< With external impulses [m/s], [rad/s].
+  float start_velocity[3], start_spin[3];  ///< Before them.
+};
+
+/// Points of contact between two bodies, at most one of which does not move.
+struct Manifold {
+  static constexpr int kMostPoints = 4;
+
+  int body_a, body_b;        ///< Or kWorld.
+  int first_point = 0;       ///< In ContactProblem::points.
+  std::int8_t points = 1;    ///< In [1, kMostPoints].
+  std::int8_t tangents = 2;  ///< Directions of friction, in [0, 2].
+  bool soft = false;         ///< Points have a compliance.
+  /// Sweeps of a Solve() that the rows take part in, counted from the first.
+  int max_sweeps = std::numeric_limits<int>::max();
+
+  int rows() const { return points * (1 + tangents); }
+};
+
+/// What all points of contact of a problem have in common.
+struct ContactLaw {
+  /// Bodies that approach slower than this do not bounce [m/s], >= 0.
+  float bounce_speed = 0;
+  /// Friction sees the spin that bodies have before external torques act, as Bullet's does. Off:
+  /// the one after.
+  bool spin_before_torques = false;
+};
+
+}  // namespace cairn

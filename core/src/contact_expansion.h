@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+
+namespace cairn {
+
+/// A problem with the rows of its manifolds written out, in double precision: the specification of
+/// simd/contact_rows, and what is solved where that does not do.
+class ContactExpansion {
+ public:
+  /// The bodies of @p problem are referred to.
+  /// @pre the problem is valid, but for its rows
+  ContactExpansion(const ContactProblem& problem, const Impulses& start);
+
+  ContactProblem problem() const { return {.bodies = bodies_, .rows = rows_}; }
+  std::span<double> impulses() { return impulses_; }
+  /// Writes impulses() to where they belong.
+  void Write(const Impulses& impulses) const;
+
+ private:
+  struct Point;
+  struct Directions {
+    Eigen::Vector3d normal, t1;
+  };
+  void Add(const Manifold& manifold, const ContactProblem& problem,
+           std::span<const ContactImpulse> start);
+  Point Aim(const Manifold& manifold, const ContactPoint& point,
+            const ContactProblem& problem) const;
+
+  std::span<const Body> bodies_;
+  std::vector<Row> rows_;
+  std::vector<double> impulses_;
+  size_t first_ = 0;  ///< of the rows that are written out
+  std::vector<Manifold> manifolds_;
+  std::vector<Directions> directions_;  ///< of their points, one after the other
+};
+
+}  // namespace cairn

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "manifold_pack.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+
+// a point and an impulse are rows of floats, in the order that kernels read
+static_assert(sizeof(ContactPoint) == simd::kPointNumbers * sizeof(float));
+static_assert(offsetof(ContactPoint, arm_b) == simd::kArmB * sizeof(float));
+static_assert(offsetof(ContactPoint, normal) == simd::kNormal * sizeof(float));
+static_assert(offsetof(ContactPoint, tangent) == simd::kTangent * sizeof(float));
+static_assert(offsetof(ContactPoint, bias) == simd::kBias * sizeof(float));
+static_assert(offsetof(ContactPoint, restitution) == simd::kRestitution * sizeof(float));
+static_assert(offsetof(ContactPoint, friction) == simd::kFriction * sizeof(float));
+static_assert(offsetof(ContactPoint, compliance) == simd::kCompliance * sizeof(float));
+static_assert(sizeof(ContactImpulse) == simd::kStartStride * sizeof(float));
+static_assert(offsetof(ContactImpulse, heading) == 3 * sizeof(float));
+static_assert(Manifold::kMostPoints == simd::kMostPoints);
+
+const simd::ContactBody kNobody{};
+
+/// The directions of a block: a point with friction has two rows or more.
+static_assert(simd::kDirectionLines <= 2 * 2);
+size_t DirectionsOf(const simd::PairBlock& block) { return 2 * size_t{block.x}; }
+
+const Manifold& ManifoldOf(const BlockPacker& packer, int block, int lane) {
+  return packer.problem.manifolds[packer.plan.pair(block, lane).manifold];
+}
+
+/// What the block after this one will read.
+void PrefetchPoints(const BlockPacker& packer, int block) {
+  if (block >= static_cast<int>(packer.plan.blocks().size())) return;
+  if (packer.plan.pair(block, 0).manifold == Pair::kNoManifold) return;
+  for (int lane = 0; lane < packer.plan.blocks()[block].lanes; ++lane) {
+    const Manifold& manifold = ManifoldOf(packer, block, lane);
+    const ContactPoint* const points = &packer.problem.points[manifold.first_point];
+    for (int p = 0; p < manifold.points; ++p) __builtin_prefetch(points + p);
+  }
+}
+
+}  // namespace
+
+simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
+                                const ContactMotion* motion) {
+  simd::ContactBody result;
+  const auto put = [](const auto& from, float* to) {
+    for (int k = 0; k < static_cast<int>(from.size()); ++k) {
+      to[k] = static_cast<float>(from.data()[k]);
+    }
+  };
+  put(whitened.linear, result.linear);
+  put(whitened.angular, result.angular);
+  if (motion != nullptr) {
+    static_assert(sizeof(*motion) == sizeof(result.free) + sizeof(result.start));
+    std::memcpy(result.free, motion, sizeof(*motion));
+    return result;
+  }
+  put(whitened.free.linear, result.free);
+  put(whitened.free.angular, result.free + 3);
+  put(body.velocity.linear, result.start);
+  put(body.velocity.angular, result.start + 3);
+  return result;
+}
+
+PackResult PackManifolds(const BlockPacker& packer, int index,
+                         std::span<const ContactImpulse> start, BlockData* blocks) {
+  PrefetchPoints(packer, index + 1);
+  const simd::PairBlock& block = packer.plan.blocks()[index];
+  const Manifold& first = ManifoldOf(packer, index, 0);
+  const ContactLaw& law = packer.problem.contact_law;
+  simd::ContactLanes lanes{.form = block.form,
+                           .points = first.points,
+                           .tangents = first.tangents,
+                           .soft = first.soft,
+                           .bounce_speed = law.bounce_speed,
+                           .spin_before_torques = law.spin_before_torques};
+  for (int lane = 0; lane < kLanes; ++lane) {
+    // unused lanes do what the first one does
+    const int used = lane < block.lanes ? lane : 0;
+    const Pair& pair = packer.plan.pair(index, used);
+    const Manifold& manifold = packer.problem.manifolds[pair.manifold];
+    const auto body = [&packer](int i) {
+      return i == kWorld ? &kNobody : &packer.contact_bodies[i];
+    };
+    lanes.a[lane] = body(manifold.body_a);
+    lanes.b[lane] = body(manifold.body_b);
+    lanes.second_moves[lane] = pair.a != manifold.body_a;
+    lanes.point[lane] = packer.problem.points[manifold.first_point].arm_a;
+    lanes.start[lane] = &start[manifold.first_point].normal;
+  }
+  const bool fits =
+      packer.pack_contacts(lanes, blocks->data.data() + block.data, blocks->x.data() + block.x,
+                           blocks->directions.data() + DirectionsOf(block));
+  return fits ? PackResult::kDone : PackResult::kOutOfRange;
+}
+
+void WriteManifolds(const BlockPacker& packer, int index, const BlockData& blocks,
+                    std::span<ContactImpulse> impulses) {
+  const simd::PairBlock& block = packer.plan.blocks()[index];
+  const simd::Line* const normals = blocks.x.data() + block.x;
+  const simd::Line* const directions = blocks.directions.data() + DirectionsOf(block);
+  for (int lane = 0; lane < block.lanes; ++lane) {
+    const Manifold& manifold = ManifoldOf(packer, index, lane);
+    const simd::Line* friction = normals + manifold.points;
+    for (int p = 0; p < manifold.points; ++p) {
+      ContactImpulse& impulse = impulses[manifold.first_point + p];
+      impulse = {.normal = normals[p].lane[lane]};
+      for (int k = 0; k < manifold.tangents; ++k) {
+        impulse.tangential[k] = (friction++)->lane[lane];
+      }
+      if (manifold.tangents == 0) continue;
+      const simd::Line* const direction = directions + simd::kDirectionLines * p;
+      for (int k = 0; k < 3; ++k) impulse.direction[k] = direction[k].lane[lane];
+      impulse.heading = direction[3].lane[lane];
+    }
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "simd/pair_block.h"
+#include "simd/target.h"
+
+namespace cairn::simd {
+
+/// A body as the rows of a contact see it: R with M^-1 = R R', and velocities. Zeros for what is
+/// not there.
+struct alignas(32) ContactBody {
+  float linear[3];   ///< diagonal of the linear part of R
+  float angular[9];  ///< angular part of R, column by column
+  float free[6];     ///< velocity without constraints: linear, angular
+  float start[6];    ///< the same before external impulses
+};
+inline constexpr int kContactBodyNumbers = sizeof(ContactBody) / sizeof(float);
+
+/// Numbers of a point of contact, in this order; see ContactPoint.
+enum PointNumber {
+  kArmA = 0,
+  kArmB = 3,
+  kNormal = 6,
+  kTangent = 9,
+  kBias = 12,
+  kRestitution,
+  kFriction,
+  kCompliance,
+  kPointNumbers
+};
+/// Numbers of a start impulse that are read: normal, two tangential ones, heading of the first; and
+/// how many lie between one point and the next.
+inline constexpr int kStartNumbers = 4, kStartStride = 7;
+/// Lines that are kept of a point with friction: direction and heading of t1.
+inline constexpr int kDirectionLines = 4;
+
+/// Points that a lane may have.
+inline constexpr int kMostPoints = 4;
+
+/// The manifolds of a block. Unused lanes: any that may be read.
+struct ContactLanes {
+  PairForm form;
+  int points, tangents;
+  bool soft;
+  float bounce_speed;
+  bool spin_before_torques;
+  const ContactBody* a[kLanes] = {};
+  const ContactBody* b[kLanes] = {};
+  /// The movable one of a PairForm::kSingle is b.
+  bool second_moves[kLanes] = {};
+  const float* point[kLanes] = {};  ///< kPointNumbers numbers a point, one after the other
+  const float* start[kLanes] = {};  ///< a point every kStartStride numbers
+};
+
+/// Writes the lines of the pair and of its rows: the normals of all points, then the friction of
+/// each. @p x: start impulses, one line a row, inside their bounds. @p directions: t1, three lines
+/// a point, if there is friction. False if a number is not finite or does not fit a float with its
+/// square, or if a coefficient is negative. Same bits on every target.
+using ContactRowsKernel = bool (*)(const ContactLanes& lanes, Line* out, Line* x, Line* directions);
+
+/// @pre the CPU supports it
+ContactRowsKernel ContactRowsKernelFor(Target target);
+
+}  // namespace cairn::simd

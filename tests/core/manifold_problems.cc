@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "manifold_problems.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstring>
+
+namespace cairn::test {
+namespace {
+
+void Put(const Vector3d& from, float* to) {
+  for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+}
+
+ContactPoint RandomPoint(const Vector3d& normal, Random* random) {
+  ContactPoint point{};
+  Put(random->Vector(1), point.arm_a);
+  Put(random->Vector(1), point.arm_b);
+  Put(normal, point.normal);
+  if (random->Index(4) == 0) Put(normal.cross(random->Direction()).normalized(), point.tangent);
+  point.bias = static_cast<float>(random->Uniform(-0.5, 0.5));
+  point.restitution = static_cast<float>(random->Index(3) == 0 ? random->Uniform(0, 1) : 0);
+  point.friction = static_cast<float>(random->Uniform(0, 1));
+  point.compliance = static_cast<float>(random->Uniform(0, 0.1));
+  return point;
+}
+
+ContactImpulse RandomImpulse(Random* random) {
+  ContactImpulse impulse;
+  impulse.normal = static_cast<float>(random->Uniform(-0.2, 1));
+  for (float& x : impulse.tangential) x = static_cast<float>(random->Uniform(-0.3, 0.3));
+  impulse.heading = static_cast<float>(random->Uniform(0.5, 5));
+  return impulse;
+}
+
+}  // namespace
+
+ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed) {
+  Random random(seed);
+  ManifoldScene scene;
+  for (int i = 0; i < bodies; ++i) scene.bodies.push_back(RandomBody(&random));
+  // kinematic, and one that does not move evenly
+  scene.bodies[0].inv_mass = 0;
+  scene.bodies[0].inv_inertia.setZero();
+  scene.bodies[1].linear_factor = {1, 0.5, 0};
+  scene.law = {.bounce_speed = 0.2f, .spin_before_torques = seed % 2 == 0};
+  for (int i = 0; i < bodies && seed % 3 == 0; ++i) {
+    ContactMotion& motion = scene.motions.emplace_back();
+    for (float* vector :
+         {motion.free_velocity, motion.free_spin, motion.start_velocity, motion.start_spin}) {
+      Put(random.Vector(2), vector);
+    }
+  }
+  for (int i = 0; i < manifolds; ++i) {
+    Manifold manifold{.body_a = random.Index(bodies), .body_b = random.Index(bodies)};
+    if (random.Index(6) == 0) manifold.body_b = kWorld;
+    if (manifold.body_a == manifold.body_b) manifold.body_b = kWorld;
+    if (random.Index(2) == 0) std::swap(manifold.body_a, manifold.body_b);
+    manifold.first_point = static_cast<int>(scene.points.size());
+    manifold.points = static_cast<std::int8_t>(1 + random.Index(4));
+    manifold.tangents = static_cast<std::int8_t>(random.Index(3));
+    manifold.soft = random.Index(3) == 0;
+    scene.manifolds.push_back(manifold);
+    const Vector3d normal = random.Direction();
+    for (int p = 0; p < manifold.points; ++p) {
+      scene.points.push_back(RandomPoint(normal, &random));
+      scene.point_impulses.push_back(RandomImpulse(&random));
+    }
+  }
+  return scene;
+}
+
+ManifoldScene ManifoldTower(int boxes) {
+  ManifoldScene scene;
+  for (int i = 0; i < boxes; ++i) {
+    scene.bodies.push_back(Box(1, {1, 1, 1}));
+    scene.bodies.back().impulse = {0, -kGravityStep, 0};
+    Manifold manifold{.body_a = i, .body_b = i - 1};
+    manifold.first_point = 4 * i;
+    manifold.points = 4;
+    scene.manifolds.push_back(manifold);
+    for (int p = 0; p < 4; ++p) {
+      const float x = (p & 1) != 0 ? 0.5f : -0.5f, z = (p & 2) != 0 ? 0.5f : -0.5f;
+      scene.points.push_back({.arm_a = {x, -0.5f, z},
+                              .arm_b = {x, 0.5f, z},
+                              .normal = {0, 1, 0},
+                              .tangent = {0, 0, 0},
+                              .bias = 0,
+                              .restitution = 0,
+                              .friction = 0.5f,
+                              .compliance = 0});
+    }
+  }
+  scene.point_impulses.resize(scene.points.size());
+  return scene;
+}
+
+testing::AssertionResult SameBits(std::span<const ContactImpulse> a,
+                                  std::span<const ContactImpulse> b) {
+  if (a.size() != b.size()) return testing::AssertionFailure() << "sizes differ";
+  for (size_t i = 0; i < a.size(); ++i) {
+    if (std::memcmp(&a[i], &b[i], sizeof(ContactImpulse)) == 0) continue;
+    return testing::AssertionFailure() << "point " << i;
+  }
+  return testing::AssertionSuccess();
+}
+
+}  // namespace cairn::test

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Contacts as manifolds.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "problems.h"
+
+namespace cairn::test {
+
+/// Owns what a ContactProblem with manifolds points to, and the impulses of its points.
+struct ManifoldScene {
+  std::vector<Body> bodies;
+  std::vector<Row> rows;
+  std::vector<Manifold> manifolds;
+  std::vector<ContactPoint> points;
+  ContactLaw law;
+  std::vector<ContactMotion> motions;
+  std::vector<double> row_impulses;
+  std::vector<ContactImpulse> point_impulses;
+
+  ContactProblem problem() const { return {bodies, rows, manifolds, points, law, motions}; }
+  Impulses impulses() { return {.rows = row_impulses, .points = point_impulses}; }
+};
+
+/// Bodies of all kinds, some of them unmoved but moving, and manifolds of one to four points in all
+/// directions, each with friction, bounce, compliance and start impulses of its own.
+ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed);
+/// Boxes of 1 m and 1 kg on each other and the ground, four contact points in each face.
+ManifoldScene ManifoldTower(int boxes);
+
+/// What of a solution there is to compare, to the bit.
+testing::AssertionResult SameBits(std::span<const ContactImpulse> a,
+                                  std::span<const ContactImpulse> b);
+
+}  // namespace cairn::test
