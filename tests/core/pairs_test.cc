@@ -27,7 +27,8 @@ struct Found {
   explicit Found(const Scene& scene, double omega = 1) { Add(scene, omega); }
   void Add(const Scene& scene, double omega = 1) {
     PairFinder finder;
-    EXPECT_TRUE(finder.Find(test::LawsOf(scene, omega), {}, test::MovableOf(scene), &shapes, &list));
+    EXPECT_TRUE(
+        finder.Find(test::LawsOf(scene, omega), {}, test::MovableOf(scene), &shapes, &list));
   }
   std::vector<int> rows(int pair) const {
     const auto rows = list.rows_of(list.pairs[pair]);
