@@ -1,59 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/bullet/group_rows.h"
 
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
 #include <algorithm>
-#include <cstdint>
+
+#include "body_table.h"
+#include "conversions.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
 
-/// Bounds of at least this size are Bullet's way to say infinity [N s].
-constexpr double kUnbounded = 1e10;
-/// Targets beyond this stand for infinity, which 6dof springs ask for; they can only end at a
-/// bound.
-constexpr double kMostTarget = 1e12;
-
-Eigen::Vector3d ToEigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-btVector3 ToBullet(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+bool MayReact(const btSolverBody& body) {
+  return body.m_originalBody != nullptr && Reacts(*body.m_originalBody);
 }
-
-Eigen::Matrix3d ToEigen(const btMatrix3x3& m) {
-  Eigen::Matrix3d result;
-  for (int i = 0; i < 3; ++i) result.row(i) = ToEigen(m[i]).transpose();
-  return result;
-}
-
-double Bound(btScalar value) {
-  if (value >= kUnbounded) return kInfinity;
-  if (value <= -kUnbounded) return -kInfinity;
-  return value;
-}
-
-/// Kinematic bodies do not react, whatever mass they were given.
-bool Reacts(const btSolverBody& body) {
-  return body.m_originalBody != nullptr && !body.m_originalBody->isStaticOrKinematicObject();
-}
-
-Body ToBody(const btSolverBody& source) {
-  Body body;
-  if (!Reacts(source)) return body;
-  const btRigidBody& rigid = *source.m_originalBody;
-  const Eigen::Vector3d angular_factor = ToEigen(rigid.getAngularFactor());
-  body.inv_mass = rigid.getInvMass();
-  body.linear_factor = ToEigen(rigid.getLinearFactor()).cwiseAbs();
-  body.inv_inertia = angular_factor.asDiagonal() * ToEigen(rigid.getInvInertiaTensorWorld()) *
-                     angular_factor.asDiagonal();
-  body.id = static_cast<std::uint64_t>(std::max(0, rigid.getWorldArrayIndex() + 1));
-  return body;
-}
-
-/// Step lengths that a sweep can be made with; where Bullet's diverges, the exact one.
-double Relaxation(double factor) { return factor > 0 && factor < 1.99 ? factor : 1.0; }
 
 }  // namespace
 
@@ -68,7 +27,10 @@ void GroupRows::Read(const RowPools& pools, const btContactSolverInfo& info, Swe
 
 void GroupRows::ReadBodies(const RowPools& pools) {
   bodies_.resize(pools.bodies->size());
-  for (int i = 0; i < pools.bodies->size(); ++i) bodies_[i] = ToBody((*pools.bodies)[i]);
+  for (int i = 0; i < pools.bodies->size(); ++i) {
+    const btSolverBody& body = (*pools.bodies)[i];
+    bodies_[i] = MayReact(body) ? ToBody(*body.m_originalBody) : Body{};
+  }
   velocities_.assign(bodies_.size(), Velocity{});
 }
 
@@ -165,7 +127,7 @@ void GroupRows::Write(const RowPools& pools) const {
 void GroupRows::ReadVelocities(const RowPools& pools) {
   for (int i = 0; i < pools.bodies->size(); ++i) {
     const btSolverBody& body = (*pools.bodies)[i];
-    if (!Reacts(body)) continue;
+    if (!MayReact(body)) continue;
     velocities_[i].linear = ToEigen(body.m_deltaLinearVelocity);
     velocities_[i].angular = ToEigen(body.m_deltaAngularVelocity);
   }

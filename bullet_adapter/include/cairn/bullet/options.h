@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cairn/bullet/precision.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// Who turns Bullet's joints and contacts into rows, and writes the results back.
+enum class Mode {
+  /// Cairn. Friction and joints start from the impulses of the substep before. A group that this
+  /// cannot take is left to kReference; ConstraintSolver::fell_back() tells.
+  kFast,
+  /// btSequentialImpulseConstraintSolver, the base class: slower, and the yardstick for kFast.
+  kReference,
+};
+
+/// How the adapter works; how hard the solver tries is in cairn::Settings.
+struct Options {
+  Mode mode = Mode::kFast;
+  /// Whether friction starts from the lateral impulses in the contact points; Mode::kFast, and only
+  /// with SOLVER_USE_WARMSTARTING in the solver mode of the world, scaled by m_warmstartingFactor.
+  bool warm_start_friction = true;
+  /// The same for joints, from the substep before if this solver made it.
+  bool warm_start_joints = true;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

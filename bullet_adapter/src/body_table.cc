@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "body_table.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "conversions.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+constexpr int kNotNumbered = -2;
+
+/// What forces add to the velocity over a step.
+Motion MotionOf(const btRigidBody& rigid, btScalar time_step) {
+  Motion motion{rigid.getLinearVelocity(), rigid.getAngularVelocity(), {0, 0, 0}, {0, 0, 0}};
+  if (!Reacts(rigid)) return motion;
+  motion.external_velocity = rigid.getTotalForce() * rigid.getInvMass() * time_step;
+  motion.external_spin = rigid.getTotalTorque() * rigid.getInvInertiaTensorWorld() * time_step;
+  return motion;
+}
+
+/// The change of spin by gyroscopic terms over a step, in each of the modes that a body asks for.
+btVector3 GyroscopicSpin(const btRigidBody& rigid, const btContactSolverInfo& info) {
+  btVector3 spin(0, 0, 0);
+  const int flags = rigid.getFlags();
+  if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT) != 0) {
+    spin -= rigid.computeGyroscopicForceExplicit(info.m_maxGyroscopicForce) *
+            rigid.getInvInertiaTensorWorld() * info.m_timeStep;
+  }
+  if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD) != 0) {
+    spin += rigid.computeGyroscopicImpulseImplicit_World(info.m_timeStep);
+  }
+  if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0) {
+    spin += rigid.computeGyroscopicImpulseImplicit_Body(info.m_timeStep);
+  }
+  return spin;
+}
+
+}  // namespace
+
+bool Reacts(const btRigidBody& rigid) {
+  return rigid.getInvMass() != 0 && !rigid.isStaticOrKinematicObject();
+}
+
+Body ToBody(const btRigidBody& rigid) {
+  Body body;
+  if (!Reacts(rigid)) return body;
+  const Eigen::Vector3d angular_factor = ToEigen(rigid.getAngularFactor());
+  body.inv_mass = rigid.getInvMass();
+  body.linear_factor = ToEigen(rigid.getLinearFactor()).cwiseAbs();
+  body.inv_inertia = angular_factor.asDiagonal() * ToEigen(rigid.getInvInertiaTensorWorld()) *
+                     angular_factor.asDiagonal();
+  body.id = static_cast<std::uint64_t>(std::max(0, rigid.getWorldArrayIndex() + 1));
+  return body;
+}
+
+void BodyTable::Begin(std::span<btCollisionObject* const> objects,
+                      const btContactSolverInfo& info) {
+  ++substep_;
+  time_step_ = info.m_timeStep;
+  strangers_.clear();
+  bodies_.clear();
+  motions_.clear();
+  rigids_.clear();
+  for (const btCollisionObject* object : objects) {
+    const int before = size();
+    const int number = Number(*object);
+    if (number < before || !reacts(number)) continue;
+    motions_[number].external_spin += GyroscopicSpin(*rigids_[number], info);
+  }
+}
+
+int* BodyTable::Find(const btCollisionObject& object) {
+  const int index = object.getWorldArrayIndex();
+  if (index >= 0) {
+    if (index >= static_cast<int>(slots_.size())) slots_.resize(index + 1);
+    Slot& slot = slots_[index];
+    if (slot.substep != substep_) slot = {&object, substep_, kNotNumbered};
+    if (slot.object == &object) return &slot.number;
+  }
+  return &strangers_.try_emplace(&object, kNotNumbered).first->second;
+}
+
+int BodyTable::Number(const btCollisionObject& object) {
+  int& number = *Find(object);
+  if (number != kNotNumbered) return number;
+  // the solver of a world may write to its bodies, though manifolds hold them as const
+  btRigidBody* const rigid = btRigidBody::upcast(const_cast<btCollisionObject*>(&object));
+  const bool moves = rigid != nullptr && (Reacts(*rigid) || rigid->isKinematicObject());
+  number = moves ? Add(rigid) : kWorld;
+  return number;
+}
+
+int BodyTable::Add(btRigidBody* rigid) {
+  bodies_.push_back(ToBody(*rigid));
+  motions_.push_back(MotionOf(*rigid, time_step_));
+  rigids_.push_back(rigid);
+  return size() - 1;
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

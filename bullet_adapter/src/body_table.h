@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "cairn/bullet/precision.h"
+#include "cairn/contact_problem.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// The body of a ContactProblem that stands for a rigid body, at rest: what is known of its motion
+/// is in the targets of the rows. Kinematic and static bodies do not react, whatever mass they were
+/// given.
+Body ToBody(const btRigidBody& rigid);
+/// Whether impulses change the velocity of a body.
+bool Reacts(const btRigidBody& rigid);
+
+/// How a body moves before any constraint acts on it.
+struct Motion {
+  btVector3 velocity, spin;  ///< Linear [m/s], angular [rad/s].
+  /// What forces, torques and gyroscopic terms add over the step, likewise.
+  btVector3 external_velocity, external_spin;
+};
+
+/// The bodies of a substep by number. A number belongs to each body that reacts, and to each
+/// kinematic one for its velocity; everything else is kWorld. Bullet's companion ids are left
+/// alone, and nothing is written to bodies that do not react: islands on other threads may share
+/// them.
+class BodyTable {
+ public:
+  /// Begins a substep with the bodies that Bullet lists; entries that are no rigid bodies are
+  /// passed over.
+  void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
+
+  /// The number of an object. One that was not listed (kinematic, asleep, in no world) gets one
+  /// when it is first asked for.
+  int Number(const btCollisionObject& object);
+
+  int size() const { return static_cast<int>(bodies_.size()); }
+  std::span<const Body> bodies() const { return bodies_; }
+  const Motion& motion(int number) const { return motions_[number]; }
+  btRigidBody& rigid(int number) const { return *rigids_[number]; }
+  /// Whether impulses move it; not so for kWorld.
+  bool reacts(int number) const { return number != kWorld && bodies_[number].inv_mass > 0; }
+
+ private:
+  /// Where the number of an object is found, by its index in its world.
+  struct Slot {
+    const btCollisionObject* object = nullptr;
+    unsigned substep = 0;
+    int number = kWorld;
+  };
+
+  int* Find(const btCollisionObject& object);
+  int Add(btRigidBody* rigid);
+
+  unsigned substep_ = 0;
+  btScalar time_step_ = 0;
+  std::vector<Slot> slots_;
+  /// Objects in no world, or with the index of another one from another world.
+  std::unordered_map<const btCollisionObject*, int> strangers_;
+
+  std::vector<Body> bodies_;
+  std::vector<Motion> motions_;
+  std::vector<btRigidBody*> rigids_;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

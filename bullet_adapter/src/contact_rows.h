@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
+#include "body_table.h"
+#include "cairn/bullet/group_rows.h"
+#include "contact_input.h"
+#include "group_problem.h"
+#include "split_impulse.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// What the contacts of a group share.
+struct ContactLaw {
+  ContactLaw(const btContactSolverInfo& info, SweepLimits limits);
+
+  btScalar time_step;              ///< [s]
+  btScalar restitution_threshold;  ///< Nothing bounces below this speed [m/s].
+  bool splits;                     ///< Deep penetration is pushed out beside the velocities.
+  btScalar split_threshold;        ///< What is deep: distances up to this [m].
+  btScalar over_relaxation;        ///< Bullet's step is this much longer [1].
+  Row row;                         ///< Step length and most sweeps of normals and friction.
+};
+
+/// Turns what was read of manifolds into rows: the normals of the points of a manifold, then their
+/// friction, then what resists rolling.
+class ContactRowBuilder {
+ public:
+  /// All must outlive the builder. Deep penetration goes to @p pushes instead of the target of its
+  /// normal.
+  ContactRowBuilder(const ContactLaw& law, const BodyTable& bodies, GroupProblem* group,
+                    SplitImpulse* pushes)
+      : law_(law), bodies_(bodies), group_(group), pushes_(pushes) {}
+
+  void Append(const ManifoldInput& manifold);
+
+ private:
+  /// A body of the present manifold: none and at rest for the world.
+  struct Side {
+    const btRigidBody* rigid;
+    Motion motion;
+  };
+
+  Side SideOf(int number) const;
+  Axes AxesAlong(const btVector3& direction, const ContactInput& input) const;
+  Row RowOf(const Axes& axes) const;
+  btScalar SpeedBefore(const Axes& axes) const;
+  btScalar NormalSpeed(const Axes& axes) const;
+  btScalar TangentSpeed(const Axes& axes) const;
+  btScalar Bounce(const ContactInput& input, const Axes& axes) const;
+
+  int AppendNormal(const ContactInput& input);
+  void AppendFriction(const ContactInput& input, int tangents, PointRows* rows);
+  void AppendTwists(const ContactInput& input, PointRows* rows);
+
+  const ContactLaw& law_;
+  const BodyTable& bodies_;
+  GroupProblem* group_;
+  SplitImpulse* pushes_;
+  int body_a_ = kWorld, body_b_ = kWorld;
+  Side a_, b_;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+
+#include <span>
+#include <vector>
+
+#include "body_table.h"
+#include "cairn/bullet/options.h"
+#include "cairn/bullet/precision.h"
+#include "contact_rows.h"
+#include "group_problem.h"
+#include "joint_rows.h"
+#include "split_impulse.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// What Bullet hands to a solver.
+struct Group {
+  std::span<btCollisionObject* const> bodies;
+  std::span<btPersistentManifold* const> manifolds;
+  Joints joints;
+};
+
+/// The rows of a group without Bullet's set-up, and its results without Bullet's finish.
+class FastGroup {
+ public:
+  FastGroup() = default;
+  FastGroup(const FastGroup&) = delete;  // its parts point at each other
+  FastGroup& operator=(const FastGroup&) = delete;
+
+  /// Builds the rows and their start. Of Bullet's objects it changes what can be done again: the
+  /// directions of friction of the points, and what joints prepare.
+  void Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
+            const Options& options);
+
+  ContactProblem problem() const { return {.bodies = bodies_.bodies(), .rows = group_.rows}; }
+  std::span<double> impulses() { return group_.impulses; }
+  std::span<Velocity> velocities() { return velocities_; }
+  /// The most sweeps that a joint asks for.
+  int most_sweeps() const { return joint_builder_.most_sweeps(); }
+
+  /// Whose rows they are.
+  const GroupProblem& group() const { return group_; }
+
+  /// Pushes bodies out of deep penetration, and writes everything to Bullet's objects.
+  void Write(const btContactSolverInfo& info);
+
+  /// Starts the next group cold where only this knows what it could start from.
+  void Forget() { memory_.Forget(); }
+
+ private:
+  BodyTable bodies_;
+  GroupProblem group_;
+  SplitImpulse pushes_;
+  JointMemory memory_;
+  JointRowBuilder joint_builder_{&bodies_, &memory_, &group_};
+  std::vector<Velocity> velocities_;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "friction_directions.h"
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <LinearMath/btVector3.h>
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+/// A direction in a plane as a number that needs no trigonometry: its place on the square
+/// |x| + |y| = 1, from 1 at (1, 0) counter-clockwise to 5.
+btScalar ToHeading(btScalar x, btScalar y) {
+  const btScalar sum = btFabs(x) + btFabs(y);
+  if (!(sum > 0)) return 1;
+  const btScalar along = x / sum;
+  return y >= 0 ? 2 - along : 4 + along;
+}
+
+struct PlaneVector {
+  btScalar x, y;
+};
+
+PlaneVector FromHeading(btScalar heading) {
+  const btScalar x = heading < 3 ? 2 - heading : heading - 4;
+  const btScalar y = heading < 3 ? 1 - btFabs(x) : btFabs(x) - 1;
+  const btScalar length = btSqrt(x * x + y * y);
+  return {x / length, y / length};
+}
+
+struct PlaneAxes {
+  btVector3 x, y;
+};
+
+PlaneAxes AxesOf(const btVector3& normal) {
+  PlaneAxes axes;
+  btPlaneSpace1(normal, axes.x, axes.y);
+  return axes;
+}
+
+btVector3 AnisotropicForBoth(const btPersistentManifold& manifold, const btVector3& direction) {
+  constexpr int kMode = btCollisionObject::CF_ANISOTROPIC_FRICTION;
+  return Anisotropic(*manifold.getBody1(), kMode,
+                     Anisotropic(*manifold.getBody0(), kMode, direction));
+}
+
+void DirectAlongVelocity(const btVector3& unit, const btPersistentManifold& manifold,
+                         FrictionDirections* directions) {
+  const btVector3& normal = directions->second;
+  const PlaneAxes axes = AxesOf(normal);
+  directions->left.heading = ToHeading(unit.dot(axes.x), unit.dot(axes.y));
+  directions->first = AnisotropicForBoth(manifold, unit);
+  directions->second = AnisotropicForBoth(manifold, directions->first.cross(normal).normalized());
+}
+
+}  // namespace
+
+btVector3 Anisotropic(const btCollisionObject& object, int mode, const btVector3& direction) {
+  if (!object.hasAnisotropicFriction(mode)) return direction;
+  const btMatrix3x3& axes = object.getWorldTransform().getBasis();
+  return axes * (direction * axes * object.getAnisotropicFriction());
+}
+
+FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
+                                    const btPersistentManifold& manifold, btManifoldPoint* point) {
+  FrictionDirections result;
+  const bool both = (solver_mode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
+  const bool by_velocity =
+      (solver_mode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) == 0;
+  if ((solver_mode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0 &&
+      (point->m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) != 0) {
+    result.first = point->m_lateralFrictionDir1;
+    result.second = point->m_lateralFrictionDir2;
+    result.left.heading = point->m_prevRHS;
+    result.by_user = result.as_left = true;
+    return result;
+  }
+
+  const btVector3& normal = point->m_normalWorldOnB;
+  const btVector3 lateral = velocity - normal * normal.dot(velocity);
+  const btScalar speed2 = lateral.length2();
+  if (by_velocity && speed2 > SIMD_EPSILON) {
+    result.second = normal;
+    DirectAlongVelocity(lateral * (1 / btSqrt(speed2)), manifold, &result);
+    point->m_lateralFrictionDir1 = result.first;
+    if (both) point->m_lateralFrictionDir2 = result.second;
+    return result;
+  }
+
+  const PlaneAxes axes = AxesOf(normal);
+  result.first = AnisotropicForBoth(manifold, axes.x);
+  result.second = both ? AnisotropicForBoth(manifold, axes.y) : axes.y;
+  result.as_left = point->m_prevRHS == 0;
+  if (both && !by_velocity) result.left.flags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+  point->m_lateralFrictionDir1 = result.first;
+  point->m_lateralFrictionDir2 = result.second;
+  return result;
+}
+
+btVector3 LeftFriction(const btManifoldPoint& point) {
+  const PlaneAxes axes = AxesOf(point.m_normalWorldOnB);
+  const btScalar first = point.m_appliedImpulseLateral1, second = point.m_appliedImpulseLateral2;
+  if (!(point.m_prevRHS >= 1 && point.m_prevRHS <= 5)) return axes.x * first + axes.y * second;
+  const PlaneVector along = FromHeading(point.m_prevRHS);
+  return axes.x * (along.x * first + along.y * second) +
+         axes.y * (along.y * first - along.x * second);
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

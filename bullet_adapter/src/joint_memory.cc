@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "joint_memory.h"
+
+#include <algorithm>
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+/// Least cosine between a row and the row that it is taken for. A hinge that turns by 25 degrees in
+/// a step keeps its start.
+constexpr float kAlike = 0.9f;
+
+std::array<float, 12> DirectionOf(const Row& row) {
+  std::array<float, 12> direction;
+  for (int k = 0; k < 3; ++k) {
+    direction[k] = static_cast<float>(row.linear_a[k]);
+    direction[3 + k] = static_cast<float>(row.angular_a[k]);
+    direction[6 + k] = static_cast<float>(row.linear_b[k]);
+    direction[9 + k] = static_cast<float>(row.angular_b[k]);
+  }
+  return direction;
+}
+
+bool Alike(const std::array<float, 12>& a, const std::array<float, 12>& b) {
+  float ab = 0, aa = 0, bb = 0;
+  for (size_t k = 0; k < a.size(); ++k) {
+    ab += a[k] * b[k];
+    aa += a[k] * a[k];
+    bb += b[k] * b[k];
+  }
+  return ab > 0 && ab * ab >= kAlike * kAlike * aa * bb;
+}
+
+}  // namespace
+
+void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor) {
+  factor_ = factor;
+  next_ = 0;
+  by_address_.clear();
+  applied_.clear();
+  for (btTypedConstraint* joint : joints) applied_.push_back(joint->internalGetAppliedImpulse());
+}
+
+void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) {
+  if (factor_ == 0) return;
+  const Entry* const entry = Find(joint.joint);
+  const bool same = entry != nullptr && entry->type == joint.joint->getConstraintType() &&
+                    entry->body_a == &joint.joint->getRigidBodyA() &&
+                    entry->body_b == &joint.joint->getRigidBodyB() && entry->rows == joint.rows &&
+                    entry->applied_impulse == applied_[place];
+  if (!same || !PointAlike(*entry, joint, *group)) return;
+  for (int i = 0; i < joint.rows; ++i) {
+    group->impulses[joint.first_row + i] = factor_ * rows_[entry->first_row + i].impulse;
+  }
+}
+
+bool JointMemory::PointAlike(const Entry& entry, const JointRows& joint,
+                             const GroupProblem& group) const {
+  for (int i = 0; i < joint.rows; ++i) {
+    const KeptRow& kept = rows_[entry.first_row + i];
+    if (!Alike(kept.direction, DirectionOf(group.rows[joint.first_row + i]))) return false;
+  }
+  return true;
+}
+
+const JointMemory::Entry* JointMemory::Find(const btTypedConstraint* joint) {
+  // joints mostly come in the same order again
+  if (next_ < entries_.size() && entries_[next_].joint == joint) return &entries_[next_++];
+  if (by_address_.empty()) {
+    for (size_t i = 0; i < entries_.size(); ++i) {
+      by_address_.emplace_back(reinterpret_cast<std::uintptr_t>(entries_[i].joint),
+                               static_cast<int>(i));
+    }
+    std::ranges::sort(by_address_);
+  }
+  const auto address = reinterpret_cast<std::uintptr_t>(joint);
+  const auto found = std::ranges::lower_bound(by_address_, std::pair(address, 0));
+  if (found == by_address_.end() || found->first != address) return nullptr;
+  next_ = found->second + 1;
+  return &entries_[found->second];
+}
+
+void JointMemory::Keep(const GroupProblem& group) {
+  entries_.clear();
+  rows_.clear();
+  for (const JointRows& joint : group.joints) {
+    entries_.push_back({joint.joint, &joint.joint->getRigidBodyA(), &joint.joint->getRigidBodyB(),
+                        joint.joint->getConstraintType(), static_cast<int>(rows_.size()),
+                        joint.rows, joint.joint->internalGetAppliedImpulse()});
+    for (int i = 0; i < joint.rows; ++i) {
+      const int row = joint.first_row + i;
+      rows_.push_back({DirectionOf(group.rows[row]), group.impulses[row]});
+    }
+  }
+}
+
+void JointMemory::Forget() {
+  entries_.clear();
+  rows_.clear();
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

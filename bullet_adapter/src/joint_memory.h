@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cairn/bullet/precision.h"
+#include "group_problem.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// Impulses of joints from one solved group to the next, to start from. Nobody tells when a joint
+/// is removed, and another one may get its address: a joint is the one that is remembered only if
+/// its type, bodies and number of rows are, if it still has the applied impulse that it was left
+/// with, and if its rows point where they pointed. Only the group before is remembered, so that
+/// worlds which share a solver start cold.
+class JointMemory {
+ public:
+  /// Begins a group; the applied impulses of the joints must be as the last group left them.
+  /// @param factor  of the start, in [0, 1]; 0 starts cold.
+  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor);
+  /// Sets the start of the joint with that place in the group.
+  void Start(int place, const JointRows& joint, GroupProblem* group);
+  /// Remembers a solved group, once its impulses are written to the joints.
+  void Keep(const GroupProblem& group);
+  void Forget();
+
+ private:
+  struct Entry {
+    const btTypedConstraint* joint;
+    const btRigidBody *body_a, *body_b;
+    int type, first_row, rows;
+    btScalar applied_impulse;
+  };
+  struct KeptRow {
+    std::array<float, 12> direction;
+    double impulse;
+  };
+
+  const Entry* Find(const btTypedConstraint* joint);
+  bool PointAlike(const Entry& entry, const JointRows& joint, const GroupProblem& group) const;
+
+  btScalar factor_ = 0;
+  std::vector<btScalar> applied_;  ///< of the present joints, by place
+  std::vector<Entry> entries_;
+  std::vector<KeptRow> rows_;
+  size_t next_ = 0;  ///< where the next joint is likely to be among the entries
+  std::vector<std::pair<std::uintptr_t, int>> by_address_;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+
+#include <span>
+#include <vector>
+
+#include "body_table.h"
+#include "cairn/bullet/group_rows.h"
+#include "group_problem.h"
+#include "joint_memory.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// The joints of a group.
+using Joints = std::span<btTypedConstraint* const>;
+
+/// Whether every joint is of a class that Bullet ships. Classes of users go by Bullet's own set-up:
+/// they may count on what it does around them. The type a joint states is all there is to go by;
+/// which virtual functions a class overrides cannot be asked portably.
+bool AllOfKnownType(Joints joints);
+
+/// Asks joints for their rows.
+class JointRowBuilder {
+ public:
+  /// Prepares every joint for the substep, as Bullet does also for those that are disabled, and
+  /// appends the rows of those that are enabled.
+  /// @pre the memory has begun the group.
+  void Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits);
+
+  /// What Append() reads and fills; all must outlive the builder.
+  JointRowBuilder(BodyTable* bodies, JointMemory* memory, GroupProblem* group)
+      : bodies_(bodies), memory_(memory), group_(group) {}
+
+  /// The most sweeps that a joint of the last Append() asked for.
+  int most_sweeps() const { return most_sweeps_; }
+
+ private:
+  /// A row as btTypedConstraint::getInfo2() fills it. Joints write four scalars to an axis.
+  struct alignas(16) Slot {
+    btScalar linear_a[4], angular_a[4], linear_b[4], angular_b[4];
+    btScalar error, cfm, lower, upper;
+  };
+
+  /// Returns the rows that were appended, none where neither body reacts.
+  JointRows AppendJoint(btTypedConstraint* joint, const btContactSolverInfo& info,
+                        SweepLimits limits);
+  /// Returns the damping of the rows.
+  btScalar FillSlots(btTypedConstraint* joint, int rows, const btContactSolverInfo& info);
+  Row ToRow(const btTypedConstraint& joint, const Slot& slot, btScalar damping);
+
+  BodyTable* bodies_;
+  JointMemory* memory_;
+  GroupProblem* group_;
+  std::vector<Slot> slots_;
+  int most_sweeps_ = 0;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

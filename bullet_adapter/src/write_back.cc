@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "write_back.h"
+
+#include <LinearMath/btTransformUtil.h>
+
+#include "conversions.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+/// A joint breaks at its bound, which sweeps in floats may round down.
+constexpr btScalar kFloatRounding = btScalar(1e-6);
+
+void AddFeedback(const Row& row, btScalar force, const btTypedConstraint& joint,
+                 btJointFeedback* feedback) {
+  const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
+  feedback->m_appliedForceBodyA += ToBullet(row.linear_a) * force * a.getLinearFactor();
+  feedback->m_appliedForceBodyB += ToBullet(row.linear_b) * force * b.getLinearFactor();
+  feedback->m_appliedTorqueBodyA += ToBullet(row.angular_a) * force * a.getAngularFactor();
+  feedback->m_appliedTorqueBodyB += ToBullet(row.angular_b) * force * b.getAngularFactor();
+}
+
+void WritePush(const PushVelocity& push, const btContactSolverInfo& info, btRigidBody* rigid) {
+  if (push.linear.isZero() && push.angular.isZero()) return;
+  btTransform moved;
+  btTransformUtil::integrateTransform(rigid->getWorldTransform(), push.linear,
+                                      push.angular * info.m_splitImpulseTurnErp, info.m_timeStep,
+                                      moved);
+  rigid->setWorldTransform(moved);
+}
+
+}  // namespace
+
+void WriteContacts(const GroupProblem& group, const btContactSolverInfo& info) {
+  const bool warm_starts = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
+  for (const PointRows& rows : group.points) {
+    btManifoldPoint& point = *rows.point;
+    point.m_contactPointFlags |= rows.left.flags;
+    if (!warm_starts) continue;
+    const double* const friction = group.impulses.data() + rows.friction_row;
+    point.m_appliedImpulse = static_cast<btScalar>(group.impulses[rows.normal_row]);
+    point.m_appliedImpulseLateral1 = static_cast<btScalar>(friction[0]);
+    if (rows.frictions > 1) point.m_appliedImpulseLateral2 = static_cast<btScalar>(friction[1]);
+    point.m_prevRHS = rows.left.heading;
+  }
+}
+
+void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info) {
+  for (const JointRows& rows : group.joints) {
+    btTypedConstraint& joint = *rows.joint;
+    btJointFeedback* const feedback = joint.getJointFeedback();
+    const btScalar breaking = joint.getBreakingImpulseThreshold() * (1 - kFloatRounding);
+    for (int i = rows.first_row; i < rows.first_row + rows.rows; ++i) {
+      const auto impulse = static_cast<btScalar>(group.impulses[i]);
+      if (feedback != nullptr) {
+        AddFeedback(group.rows[i], impulse / info.m_timeStep, joint, feedback);
+      }
+      joint.internalSetAppliedImpulse(impulse);
+      if (btFabs(impulse) >= breaking) joint.setEnabled(false);
+    }
+  }
+}
+
+void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
+                 const SplitImpulse& pushes, const btContactSolverInfo& info) {
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (!bodies.reacts(i)) continue;
+    const Motion& motion = bodies.motion(i);
+    btRigidBody& rigid = bodies.rigid(i);
+    rigid.setLinearVelocity(motion.velocity + ToBullet(changes[i].linear) +
+                            motion.external_velocity);
+    rigid.setAngularVelocity(motion.spin + ToBullet(changes[i].angular) + motion.external_spin);
+    if (!pushes.velocities().empty()) WritePush(pushes.velocities()[i], info, &rigid);
+  }
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
+#include <span>
+
+#include "body_table.h"
+#include "cairn/bullet/precision.h"
+#include "group_problem.h"
+#include "split_impulse.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// Writes impulses to the contact points, if the solver mode has warm starts, as Bullet does: the
+/// second lateral one only where there are two directions of friction.
+void WriteContacts(const GroupProblem& group, const btContactSolverInfo& info);
+
+/// Writes applied impulses and feedback to the joints, and disables those that break.
+void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info);
+
+/// Writes velocities to the bodies that react, and moves those that are pushed out of penetration.
+/// @param changes  of the velocities, one per body of the table
+void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
+                 const SplitImpulse& pushes, const btContactSolverInfo& info);
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+#include "tests/bullet_adapter/row_oracle.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "bullet_adapter/src/conversions.h"
+#include "measure/instrumented_solver.h"
+
+namespace cairn::test {
+namespace {
+
+using bench::Substep;
+
+/// 1e-6 with floats: eight roundings, as either side makes several.
+constexpr double kTolerance = sizeof(btScalar) == sizeof(float) ? 1e-6 : 1e-12;
+
+/// Numbers that have no full precision any more are zero [m/s].
+constexpr double kNothing = 1e-30;
+
+/// Bullet's solver, stopped between its set-up and its sweeps.
+class Oracle : public btSequentialImpulseConstraintSolver {
+ public:
+  void SetUp(Substep::Group* group, btContactSolverInfo* info) {
+    solveGroupCacheFriendlySetup(group->bodies.data(), static_cast<int>(group->bodies.size()),
+                                 group->manifolds.data(), static_cast<int>(group->manifolds.size()),
+                                 group->joints.data(), static_cast<int>(group->joints.size()),
+                                 *info, nullptr);
+  }
+  /// Gives the companion ids back; what it writes besides has to be restored.
+  void Finish(Substep::Group* group, btContactSolverInfo* info) {
+    solveGroupCacheFriendlyFinish(group->bodies.data(), static_cast<int>(group->bodies.size()),
+                                  *info);
+  }
+
+  const btConstraintArray& joints() const { return m_tmpSolverNonContactConstraintPool; }
+  const btConstraintArray& contacts() const { return m_tmpSolverContactConstraintPool; }
+  const btConstraintArray& frictions() const { return m_tmpSolverContactFrictionConstraintPool; }
+  const btConstraintArray& twists() const {
+    return m_tmpSolverContactRollingFrictionConstraintPool;
+  }
+  const btSolverBody& body(int id) const { return m_tmpSolverBodyPool[id]; }
+};
+
+/// sum |J_k| |v_k|: what J v is rounded against.
+double SpeedScale(const btSolverBody& body, const btVector3& linear, const btVector3& angular) {
+  const btVector3 velocity =
+      body.m_linearVelocity.absolute() + body.m_externalForceImpulse.absolute();
+  const btVector3 spin =
+      body.m_angularVelocity.absolute() + body.m_externalTorqueImpulse.absolute();
+  return linear.absolute().dot(velocity) + angular.absolute().dot(spin);
+}
+
+void ExpectNear(double actual, double expected, double scale, const char* what) {
+  if (actual == expected) return;  // infinities, too
+  EXPECT_NEAR(actual, expected, kTolerance * (std::abs(expected) + scale) + kNothing) << what;
+}
+
+void ExpectAxis(const Eigen::Vector3d& actual, const btVector3& expected, const char* what) {
+  const double scale = expected.length();
+  for (int k = 0; k < 3; ++k) ExpectNear(actual[k], expected[k], scale, what);
+}
+
+enum class Halves { kBoth, kOfBodies };
+
+class RowComparison {
+ public:
+  RowComparison(const Oracle& oracle, const bullet::FastGroup& ours)
+      : oracle_(oracle), rows_(ours.problem().rows) {}
+
+  /// What all kinds of rows share.
+  const Row& Compare(int index, const btSolverConstraint& source, Halves halves) const {
+    const Row& row = rows_[index];
+    const btSolverBody& a = oracle_.body(source.m_solverBodyIdA);
+    const btSolverBody& b = oracle_.body(source.m_solverBodyIdB);
+    if (halves == Halves::kBoth || a.m_originalBody != nullptr) {
+      ExpectAxis(row.linear_a, source.m_contactNormal1, "linear a");
+      ExpectAxis(row.angular_a, source.m_relpos1CrossNormal, "angular a");
+    }
+    if (halves == Halves::kBoth || b.m_originalBody != nullptr) {
+      ExpectAxis(row.linear_b, source.m_contactNormal2, "linear b");
+      ExpectAxis(row.angular_b, source.m_relpos2CrossNormal, "angular b");
+    }
+    const double step = source.m_jacDiagABInv;
+    const double speed = SpeedScale(a, source.m_contactNormal1, source.m_relpos1CrossNormal) +
+                         SpeedScale(b, source.m_contactNormal2, source.m_relpos2CrossNormal);
+    // Bullet's way to switch a row off that nothing can move for
+    const double inverse_step = step != 0 ? 1 / step : 0;
+    ExpectNear(row.target,
+               std::clamp(source.m_rhs * inverse_step, -bullet::kMostTarget, bullet::kMostTarget),
+               2 * speed, "target");
+    ExpectNear(row.compliance, source.m_cfm * inverse_step, 0, "compliance");
+    return row;
+  }
+
+ private:
+  const Oracle& oracle_;
+  std::span<const Row> rows_;
+};
+
+void CompareJoints(const Oracle& oracle, const bullet::FastGroup& ours, RowCounts* counts) {
+  const RowComparison comparison(oracle, ours);
+  int next = 0;
+  for (const bullet::JointRows& joint : ours.group().joints) {
+    for (int i = 0; i < joint.rows; ++i, ++next) {
+      ASSERT_LT(next, oracle.joints().size());
+      const btSolverConstraint& source = oracle.joints()[next];
+      const Row& row = comparison.Compare(joint.first_row + i, source, Halves::kBoth);
+      EXPECT_EQ(row.lo, bullet::Bound(source.m_lowerLimit));
+      EXPECT_EQ(row.hi, bullet::Bound(source.m_upperLimit));
+      EXPECT_EQ(row.max_sweeps, source.m_overrideNumSolverIterations);
+      EXPECT_EQ(joint.joint, source.m_originalContactPoint);
+    }
+  }
+  EXPECT_EQ(next, oracle.joints().size());
+  counts->joints += next;
+}
+
+void CompareContacts(const Oracle& oracle, const bullet::FastGroup& ours, RowCounts* counts) {
+  const RowComparison comparison(oracle, ours);
+  const auto& points = ours.group().points;
+  const std::span<const double> impulses = ours.group().impulses;
+  int friction = 0, twist = 0;
+  ASSERT_EQ(static_cast<int>(points.size()), oracle.contacts().size());
+  for (int i = 0; i < oracle.contacts().size(); ++i) {
+    const btSolverConstraint& normal = oracle.contacts()[i];
+    EXPECT_EQ(points[i].point, normal.m_originalContactPoint);
+    comparison.Compare(points[i].normal_row, normal, Halves::kBoth);
+    ExpectNear(impulses[points[i].normal_row], normal.m_appliedImpulse, 0, "start");
+    for (int k = 0; k < points[i].frictions; ++k) {
+      ASSERT_LT(friction, oracle.frictions().size());
+      const btSolverConstraint& source = oracle.frictions()[friction++];
+      const Row& row = comparison.Compare(points[i].friction_row + k, source, Halves::kBoth);
+      EXPECT_EQ(source.m_frictionIndex, i);
+      EXPECT_EQ(row.friction, source.m_friction);
+    }
+    for (int k = 0; k < points[i].twists; ++k) {
+      ASSERT_LT(twist, oracle.twists().size());
+      const btSolverConstraint& source = oracle.twists()[twist++];
+      const Row& row = comparison.Compare(points[i].twist_row + k, source, Halves::kOfBodies);
+      EXPECT_EQ(source.m_frictionIndex, i);
+      EXPECT_EQ(row.friction, source.m_friction);
+      EXPECT_EQ(row.hi, source.m_friction);
+    }
+  }
+  EXPECT_EQ(friction, oracle.frictions().size());
+  EXPECT_EQ(twist, oracle.twists().size());
+  counts->normals += static_cast<int>(points.size());
+  counts->frictions += friction;
+  counts->twists += twist;
+}
+
+bool SameBits(const Row& a, const Row& b) {
+  return a.linear_a == b.linear_a && a.angular_a == b.angular_a && a.linear_b == b.linear_b &&
+         a.angular_b == b.angular_b && a.target == b.target && a.compliance == b.compliance &&
+         a.lo == b.lo && a.hi == b.hi && a.friction == b.friction && a.parent == b.parent;
+}
+
+void ReadOurs(const Substep& substep, const Substep::Group& group, const ChangeState& change,
+              const btContactSolverInfo& info, bullet::FastGroup* ours) {
+  substep.Restore();
+  change(substep);
+  ours->Read({group.bodies, group.manifolds, group.joints}, info, bullet::SweepLimits::kBullet, {});
+}
+
+}  // namespace
+
+RowCounts ExpectBulletsRows(const Substep& substep, const btContactSolverInfo& info,
+                            const ChangeState& change) {
+  RowCounts counts;
+  btContactSolverInfo own_info = info;
+  for (Substep::Group group : substep.groups()) {
+    bullet::FastGroup ours, again;
+    ReadOurs(substep, group, change, info, &ours);
+    substep.Restore();
+    change(substep);
+    Oracle oracle;
+    oracle.SetUp(&group, &own_info);
+    CompareJoints(oracle, ours, &counts);
+    CompareContacts(oracle, ours, &counts);
+    oracle.Finish(&group, &own_info);
+
+    ReadOurs(substep, group, change, info, &again);
+    const auto first = ours.problem().rows, second = again.problem().rows;
+    EXPECT_TRUE(std::ranges::equal(first, second, SameBits));
+  }
+  substep.Restore();
+  return counts;
+}
+
+RowCounts ExpectBulletsRowsInWorld(const std::function<void(bench::World*)>& build,
+                                   const ChangeState& change, int frames, int stride) {
+  btSequentialImpulseConstraintSolver driver;
+  bench::InstrumentedSolver instrumented(&driver);
+  bench::World world(&instrumented);
+  build(&world);
+  RowCounts counts;
+  for (int frame = 0; frame < frames; ++frame) {
+    if (frame % stride == stride - 1) {
+      instrumented.ProbeNext([&](Substep* substep, const btContactSolverInfo& info) {
+        const RowCounts more = ExpectBulletsRows(*substep, info, change);
+        counts.joints += more.joints;
+        counts.normals += more.normals;
+        counts.frictions += more.frictions;
+        counts.twists += more.twists;
+      });
+    }
+    world.Step();
+    if (testing::Test::HasFailure()) {
+      ADD_FAILURE() << "in frame " << frame;
+      break;
+    }
+  }
+  return counts;
+}
+
+}  // namespace cairn::test

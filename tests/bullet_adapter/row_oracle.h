@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+
+#include "bullet_adapter/src/fast_group.h"
+#include "measure/substep.h"
+#include "scenes/world.h"
+
+namespace cairn::test {
+
+/// Applied to the state of a substep before rows are made of it.
+using ChangeState = std::function<void(const bench::Substep&)>;
+
+/// How many rows were compared.
+struct RowCounts {
+  int joints = 0, normals = 0, frictions = 0, twists = 0;
+};
+
+/// Expects that for every group of a substep the rows of FastGroup are those that Bullet's own
+/// set-up makes from the same state: J, target, compliance, bounds, friction coefficients, and the
+/// start of normals; and that making them twice gives the same.
+RowCounts ExpectBulletsRows(const bench::Substep& substep, const btContactSolverInfo& info,
+                            const ChangeState& change);
+
+/// The same in every @p stride -th of @p frames frames of a world that is driven by Bullet.
+/// @param build  fills the world
+RowCounts ExpectBulletsRowsInWorld(const std::function<void(bench::World*)>& build,
+                                   const ChangeState& change, int frames, int stride);
+
+}  // namespace cairn::test
