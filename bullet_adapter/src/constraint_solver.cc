@@ -7,6 +7,7 @@
 
 #include "cairn/bullet/group_rows.h"
 #include "cairn/solver.h"
+#include "fast_group.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -17,13 +18,24 @@ using Clock = std::chrono::steady_clock;
 /// Aimed at of a budget of time, so that the last block of rows still ends inside it.
 constexpr int kAimPercent = 98;
 
+bool Unlimited(const Settings& settings) {
+  return settings.budget.kind() == Budget::Kind::kUnlimited;
+}
+
+SweepLimits LimitsOf(const Settings& settings) {
+  return Unlimited(settings) ? SweepLimits::kBullet : SweepLimits::kNone;
+}
+
+/// Whether the iteration is Bullet's own.
+bool SweepsAsBullet(const Settings& settings) {
+  return settings.method == Method::kPgs ||
+         (settings.method == Method::kPgsSm && settings.k_sm == 0);
+}
+
 /// Iteration settings of one group: what the user asked for, and what Bullet's info says.
 Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max_override) {
   Settings settings = user;
-  const bool as_bullet =
-      user.method == Method::kPgs || (user.method == Method::kPgsSm && user.k_sm == 0);
-  if (as_bullet) settings.lifted_friction = LiftedFriction::kHold;
-  if (user.budget.kind() == Budget::Kind::kUnlimited) {
+  if (Unlimited(user)) {
     settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
     settings.tolerance = 0;
     settings.min_progress = std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
@@ -45,9 +57,12 @@ void Append(T* values, int count, btAlignedObjectArray<T>* array) {
 
 struct ConstraintSolver::Impl {
   Settings settings;
+  Options options;
   Solver solver;
   GroupRows rows;
+  FastGroup fast;
   Report report;
+  bool fell_back = false;
 
   /// Groups between prepareSolve() and allSolved(), to be solved as one.
   bool collecting = false;
@@ -59,17 +74,32 @@ struct ConstraintSolver::Impl {
   /// What of a Budget::Time is not for the iteration.
   Clock::time_point start;
   std::chrono::nanoseconds write_time{0}, finish_time{0};  ///< of the last group
+
+  void SetTimeLeft(Budget* budget) const;
 };
 
-ConstraintSolver::ConstraintSolver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
+void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
+  if (budget->kind() != Budget::Kind::kTime || !budget->valid()) return;
+  const std::chrono::nanoseconds left =
+      budget->time() * kAimPercent / 100 - (Clock::now() - start) - write_time - finish_time;
+  *budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
+}
+
+ConstraintSolver::ConstraintSolver(const Settings& settings, const Options& options)
+    : impl_(std::make_unique<Impl>()) {
   impl_->settings = settings;
+  impl_->options = options;
 }
 
 ConstraintSolver::~ConstraintSolver() = default;
 
 Settings& ConstraintSolver::settings() { return impl_->settings; }
 
+Options& ConstraintSolver::options() { return impl_->options; }
+
 const Report& ConstraintSolver::report() const { return impl_->report; }
+
+bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
 
 void ConstraintSolver::prepareSolve(int, int) {
   impl_->collecting = true;
@@ -91,6 +121,15 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
     return 0;
   }
   impl_->start = Clock::now();
+  impl_->fell_back = false;
+  if (impl_->options.mode == Mode::kFast) {
+    const Group group{{bodies, static_cast<size_t>(num_bodies)},
+                      {manifolds, static_cast<size_t>(num_manifolds)},
+                      {constraints, static_cast<size_t>(num_constraints)}};
+    if (SolveFast(group, info)) return 0;
+    impl_->fell_back = true;
+  }
+  impl_->fast.Forget();
   return btSequentialImpulseConstraintSolver::solveGroup(
       bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
       debug_drawer, dispatcher);
@@ -106,8 +145,44 @@ void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* 
 void ConstraintSolver::reset() {
   btSequentialImpulseConstraintSolver::reset();
   impl_->solver.Reset();
+  impl_->fast.Forget();
   impl_->write_time = impl_->finish_time = {};
   impl_->report = {};
+  impl_->fell_back = false;
+}
+
+bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
+  if (!AllOfKnownType(group.joints)) return false;
+  FastGroup& fast = impl_->fast;
+  fast.Read(group, info, LimitsOf(impl_->settings), impl_->options);
+  if (fast.problem().bodies.empty()) {
+    impl_->report = {};
+    impl_->report.stop = StopReason::kConverged;
+    return true;
+  }
+  Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
+  impl_->SetTimeLeft(&settings.budget);
+  impl_->solver.settings() = settings;
+  impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
+  if (!impl_->report.ok()) return false;
+
+  const Clock::time_point solved = Clock::now();
+  fast.Write(info);
+  impl_->write_time = Clock::now() - solved;
+  impl_->finish_time = {};
+  Analyse(group,
+          group.bodies.empty() ? -2 : 0);  // 0 is the number that Bullet gives the first body
+  return true;
+}
+
+void ConstraintSolver::Analyse(const Group& group, int first_companion) {
+  m_leastSquaresResidual = static_cast<btScalar>(std::pow(impl_->report.residual_max, 2));
+  m_analyticsData.m_numSolverCalls++;
+  m_analyticsData.m_numIterationsUsed = impl_->report.sweeps;
+  m_analyticsData.m_islandId = first_companion;
+  m_analyticsData.m_numBodies = static_cast<int>(group.bodies.size());
+  m_analyticsData.m_numContactManifolds = static_cast<int>(group.manifolds.size());
+  m_analyticsData.m_remainingLeastSquaresResidual = m_leastSquaresResidual;
 }
 
 btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
@@ -122,16 +197,11 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
                        &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
                        &m_tmpSolverContactRollingFrictionConstraintPool};
-  const bool unlimited = impl_->settings.budget.kind() == Budget::Kind::kUnlimited;
-  impl_->rows.Read(pools, info, unlimited ? SweepLimits::kBullet : SweepLimits::kNone);
+  impl_->rows.Read(pools, info, LimitsOf(impl_->settings));
 
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
-  if (settings.budget.kind() == Budget::Kind::kTime && settings.budget.valid()) {
-    const std::chrono::nanoseconds left = settings.budget.time() * kAimPercent / 100 -
-                                          (Clock::now() - impl_->start) - impl_->write_time -
-                                          impl_->finish_time;
-    settings.budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
-  }
+  if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;
+  impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities(),
                       &impl_->report);
@@ -146,13 +216,10 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
                                                 constraints, num_constraints, info, debug_drawer);
   impl_->write_time = Clock::now() - solved;
 
-  m_leastSquaresResidual = static_cast<btScalar>(std::pow(impl_->report.residual_max, 2));
-  m_analyticsData.m_numSolverCalls++;
-  m_analyticsData.m_numIterationsUsed = impl_->report.sweeps;
-  m_analyticsData.m_islandId = num_bodies > 0 ? bodies[0]->getCompanionId() : -2;
-  m_analyticsData.m_numBodies = num_bodies;
-  m_analyticsData.m_numContactManifolds = num_manifolds;
-  m_analyticsData.m_remainingLeastSquaresResidual = m_leastSquaresResidual;
+  const Group group{{bodies, static_cast<size_t>(num_bodies)},
+                    {manifolds, static_cast<size_t>(num_manifolds)},
+                    {constraints, static_cast<size_t>(num_constraints)}};
+  Analyse(group, num_bodies > 0 ? bodies[0]->getCompanionId() : -2);
   return 0;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// With k_sm = 0 the adapter makes Bullet's own iteration: every step taken from the same state ends
-// in the same velocities, impulses and positions, to rounding.
+// With k_sm = 0 Mode::kReference makes Bullet's own iteration: every step taken from the same state
+// ends in the same velocities, impulses and positions, to rounding.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -111,7 +111,7 @@ using Change = std::function<void(bench::World*)>;
 /// the same state.
 void ExpectBulletsOwnResult(std::string_view scene, int frames, const Change& change) {
   btSequentialImpulseConstraintSolver driver, bullet;
-  bullet::ConstraintSolver cairn(PlainSweeps());
+  bullet::ConstraintSolver cairn(PlainSweeps(), {.mode = bullet::Mode::kReference});
   bench::InstrumentedSolver instrumented(&driver);
   SceneWorld world(scene, &instrumented);
   change(&world.world());

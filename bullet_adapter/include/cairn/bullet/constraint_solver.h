@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
@@ -12,35 +13,47 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
+struct Group;
+
 /// Drop-in for btSequentialImpulseConstraintSolver: pass it to a btDiscreteDynamicsWorld, which
 /// does not own it.
 ///
-/// Bullet sets up the rows and writes back the results, Cairn solves in between. All islands of a
-/// substep are solved as one problem, with one budget.
+/// Cairn builds the rows, solves and writes back; with Mode::kReference Bullet sets up the rows and
+/// writes back the results. All islands of a substep are solved as one problem, with one budget.
 ///
 /// Without a budget (the default) each substep makes btContactSolverInfo::m_numIterations sweeps,
 /// with a subspace step among them where it is predicted to pay; Settings::max_sweeps and
 /// Settings::tolerance are not used, m_leastSquaresResidualThreshold is, and per-joint iteration
-/// overrides are honoured. With Settings::k_sm = 0 or Method::kPgs this is Bullet's own iteration,
-/// down to friction that keeps its impulse when its contact lifts off (LiftedFriction::kHold).
+/// overrides are honoured. With Settings::k_sm = 0 or Method::kPgs and Mode::kReference this is
+/// Bullet's own iteration, down to friction that keeps its impulse when its contact lifts off
+/// (LiftedFriction::kHold).
 ///
 /// With a budget, m_numIterations and overrides are not used: the solver goes on until
 /// Settings::tolerance, Settings::max_sweeps or the budget. A Budget::Time is for the whole
-/// substep, Bullet's set-up and write-back included.
+/// substep, set-up and write-back included.
 ///
 /// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration; report() says
-/// so. SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in Bullet's unshuffled order.
+/// so. SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in the same order.
+///
+/// In Mode::kFast, btManifoldPoint::m_prevRHS of contacts is used, to know the directions of
+/// lateral impulses from one substep to the next, and joints start from the substep before only if
+/// its groups came between prepareSolve() and allSolved(), or were one.
 ///
 /// Not thread safe, like its base: one solver per world.
 class ConstraintSolver : public btSequentialImpulseConstraintSolver {
  public:
-  explicit ConstraintSolver(const Settings& settings = {});
+  explicit ConstraintSolver(const Settings& settings = {}, const Options& options = {});
   ~ConstraintSolver() override;
 
   Settings& settings();
+  /// May be changed between substeps.
+  Options& options();
   /// Of the last substep; of the last group where the caller does not bracket groups with
   /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
   const Report& report() const;
+  /// Whether that was solved as by Mode::kReference though Mode::kFast was asked for: it has joints
+  /// of a type that Bullet does not ship, or Solver::Solve() refused it or broke down.
+  bool fell_back() const;
 
   void prepareSolve(int bodies, int manifolds) override;
   btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,
@@ -62,6 +75,11 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
 
  private:
   struct Impl;
+
+  /// False if the group was not solved.
+  bool SolveFast(const Group& group, const btContactSolverInfo& info);
+  void Analyse(const Group& group, int first_companion);
+
   std::unique_ptr<Impl> impl_;  // no member may ask for more than 16 bytes of alignment: the base
                                 // class brings an operator new that does not give more
 };
