@@ -5,6 +5,14 @@
 
 namespace cairn::cli {
 
+void ObservedCairn::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
+  ConstraintSolver::allSolved(info, debug_drawer);
+  if (!observer_) return;
+  const auto start = std::chrono::steady_clock::now();
+  observer_(problem(), impulses());
+  observing_ += std::chrono::steady_clock::now() - start;
+}
+
 void CairnContestant::Begin(const Effort& effort, btContactSolverInfo* info) {
   info->m_numIterations = effort.iterations;
   solver_.settings().budget = effort.budget ? Budget::Time(*effort.budget) : Budget::Unlimited();

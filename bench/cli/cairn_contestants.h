@@ -3,19 +3,43 @@
 
 #include <cairn/bullet/constraint_solver.h>
 
+#include <chrono>
+#include <string>
+#include <utility>
+
 #include "cli/contestant.h"
 
 namespace cairn::cli {
 
-/// Cairn in its Bullet adapter. With a budget it goes by the clock, without one by iterations.
-class CairnContestant : public ObservedContestant<bullet::ConstraintSolver> {
+/// Cairn's solver, which shows its answer after each substep.
+class ObservedCairn : public bullet::ConstraintSolver {
  public:
-  explicit CairnContestant(const Settings& settings)
-      : ObservedContestant<bullet::ConstraintSolver>(settings) {}
+  using bullet::ConstraintSolver::ConstraintSolver;
+
+  void Observe(Contestant::Observer observer) { observer_ = std::move(observer); }
+  std::chrono::nanoseconds TakeObservingTime() { return std::exchange(observing_, {}); }
+  void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override;
+
+ private:
+  Contestant::Observer observer_;
+  std::chrono::nanoseconds observing_{0};
+};
+
+/// Cairn in its Bullet adapter. With a budget it goes by the clock, without one by iterations.
+class CairnContestant : public Contestant {
+ public:
+  explicit CairnContestant(const Settings& settings) : solver_(settings) {}
+
+  btConstraintSolver* solver() override { return &solver_; }
+  void Observe(Observer observer) override { solver_.Observe(std::move(observer)); }
+  std::chrono::nanoseconds TakeObservingTime() override { return solver_.TakeObservingTime(); }
 
   void Begin(const Effort& effort, btContactSolverInfo* info) override;
   Work work() const override;
   std::string refusal() const override;
+
+ private:
+  ObservedCairn solver_;
 };
 
 }  // namespace cairn::cli

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -28,7 +29,7 @@ struct Work {
 /// A solver under test, of any make.
 class Contestant {
  public:
-  using Observer = std::function<void(bullet::GroupRows&)>;
+  using Observer = std::function<void(const ContactProblem&, std::span<const double> impulses)>;
 
   virtual ~Contestant() = default;
 
@@ -54,7 +55,12 @@ template <class Solver>
 class ObservedContestant : public Contestant {
  public:
   btConstraintSolver* solver() override { return &solver_; }
-  void Observe(Observer observer) override { solver_.Observe(std::move(observer)); }
+  void Observe(Observer observer) override {
+    if (!observer) return solver_.Observe(nullptr);
+    solver_.Observe([observer = std::move(observer)](bullet::GroupRows& rows) {
+      observer(rows.problem(), rows.impulses());
+    });
+  }
   std::chrono::nanoseconds TakeObservingTime() override { return solver_.TakeObservingTime(); }
 
  protected:

@@ -35,8 +35,8 @@ std::string Describe(const Effort& effort, Control control) {
   return fmt::format("{} iterations", effort.iterations);
 }
 
-double ResidualOf(bullet::GroupRows& rows) {
-  const Report report = Measure(rows.problem(), rows.impulses());
+double ResidualOf(const ContactProblem& problem, std::span<const double> impulses) {
+  const Report report = Measure(problem, impulses);
   if (report.status == Status::kEmptyProblem) return 0;
   return report.ok() ? report.residual_max : kInfinity;
 }
@@ -79,8 +79,9 @@ void Lane::Prepare(Observing observing) {
     return;
   }
   residual_ = 0;  // of a world in which nothing touches
-  contestant_->Observe(
-      [this](bullet::GroupRows& rows) { residual_ = std::max(residual_, ResidualOf(rows)); });
+  contestant_->Observe([this](const ContactProblem& problem, std::span<const double> impulses) {
+    residual_ = std::max(residual_, ResidualOf(problem, impulses));
+  });
 }
 
 void Lane::Step(Observing observing) {

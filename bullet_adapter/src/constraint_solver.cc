@@ -62,7 +62,7 @@ struct ConstraintSolver::Impl {
   GroupRows rows;
   FastGroup fast;
   Report report;
-  bool fell_back = false;
+  bool fell_back = false, solved_fast = false;
 
   /// Groups between prepareSolve() and allSolved(), to be solved as one.
   bool collecting = false;
@@ -101,6 +101,14 @@ const Report& ConstraintSolver::report() const { return impl_->report; }
 
 bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
 
+ContactProblem ConstraintSolver::problem() const {
+  return impl_->solved_fast ? impl_->fast.problem() : impl_->rows.problem();
+}
+
+std::span<const double> ConstraintSolver::impulses() const {
+  return impl_->solved_fast ? impl_->fast.impulses() : impl_->rows.impulses();
+}
+
 void ConstraintSolver::prepareSolve(int, int) {
   impl_->collecting = true;
   impl_->bodies.resize(0);
@@ -121,7 +129,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
     return 0;
   }
   impl_->start = Clock::now();
-  impl_->fell_back = false;
+  impl_->fell_back = impl_->solved_fast = false;
   if (impl_->options.mode == Mode::kFast) {
     const Group group{{bodies, static_cast<size_t>(num_bodies)},
                       {manifolds, static_cast<size_t>(num_manifolds)},
@@ -158,6 +166,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   if (fast.problem().bodies.empty()) {
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
+    impl_->solved_fast = true;
     return true;
   }
   Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
@@ -165,6 +174,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
   if (!impl_->report.ok()) return false;
+  impl_->solved_fast = true;
 
   const Clock::time_point solved = Clock::now();
   fast.Write(info);

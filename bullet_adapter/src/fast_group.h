@@ -40,6 +40,7 @@ class FastGroup {
 
   ContactProblem problem() const { return {.bodies = bodies_.bodies(), .rows = group_.rows}; }
   std::span<double> impulses() { return group_.impulses; }
+  std::span<const double> impulses() const { return group_.impulses; }
   std::span<Velocity> velocities() { return velocities_; }
   /// The most sweeps that a joint asks for.
   int most_sweeps() const { return joint_builder_.most_sweeps(); }

@@ -4,9 +4,11 @@
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
 #include <memory>
+#include <span>
 
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
+#include "cairn/contact_problem.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 
@@ -54,6 +56,11 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// Whether that was solved as by Mode::kReference though Mode::kFast was asked for: it has joints
   /// of a type that Bullet does not ship, or Solver::Solve() refused it or broke down.
   bool fell_back() const;
+  /// The problem that report() is about, and the impulses that solve it, one per row: joints first,
+  /// in the order in which Bullet hands them over. Valid until the next substep; empty before the
+  /// first.
+  ContactProblem problem() const;
+  std::span<const double> impulses() const;
 
   void prepareSolve(int bodies, int manifolds) override;
   btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,

@@ -38,6 +38,7 @@ class GroupRows {
 
   ContactProblem problem() const { return {.bodies = bodies_, .rows = rows_}; }
   std::span<double> impulses() { return impulses_; }
+  std::span<const double> impulses() const { return impulses_; }
   std::span<Velocity> velocities() { return velocities_; }
 
   /// Writes impulses() and velocities() into the pools that were read.
