@@ -11,13 +11,18 @@ namespace {
 /// a step keeps its start.
 constexpr float kAlike = 0.9f;
 
+/// Without the half of a static body: its lever reaches to the origin of the world.
 std::array<float, 12> DirectionOf(const Row& row) {
-  std::array<float, 12> direction;
+  std::array<float, 12> direction{};
   for (int k = 0; k < 3; ++k) {
-    direction[k] = static_cast<float>(row.linear_a[k]);
-    direction[3 + k] = static_cast<float>(row.angular_a[k]);
-    direction[6 + k] = static_cast<float>(row.linear_b[k]);
-    direction[9 + k] = static_cast<float>(row.angular_b[k]);
+    if (row.body_a != kWorld) {
+      direction[k] = static_cast<float>(row.linear_a[k]);
+      direction[3 + k] = static_cast<float>(row.angular_a[k]);
+    }
+    if (row.body_b != kWorld) {
+      direction[6 + k] = static_cast<float>(row.linear_b[k]);
+      direction[9 + k] = static_cast<float>(row.angular_b[k]);
+    }
   }
   return direction;
 }
