@@ -81,7 +81,7 @@ void ReadFriction(const Sides& sides, const btContactSolverInfo& info, ContactIn
   input->tangent_impulses[1] = point.m_appliedImpulseLateral2;
   const bool none = point.m_appliedImpulseLateral1 == 0 && point.m_appliedImpulseLateral2 == 0;
   if (directions.as_left || none) return;
-  const btVector3 left = LeftFriction(point);
+  const btVector3 left = LeftFriction(point, directions.count);
   for (int k = 0; k < 2; ++k) {
     const btScalar length2 = input->tangents[k].length2();
     input->tangent_impulses[k] = length2 > 0 ? left.dot(input->tangents[k]) / length2 : btScalar(0);
@@ -110,6 +110,16 @@ void ReadTwists(const btPersistentManifold& manifold, ContactInput* input) {
   }
 }
 
+/// Sets the start of what resists rolling, and scales that of the rest.
+void Start(const ContactStart& start, ContactInput* input) {
+  input->normal_impulse *= start.normal;
+  for (btScalar& impulse : input->tangent_impulses) impulse *= start.friction;
+  input->twist_impulses = {};
+  if (input->twists == 0 || start.twists == nullptr) return;
+  input->twist_impulses = start.twists->Find(*input->point);
+  for (btScalar& impulse : input->twist_impulses) impulse *= start.friction;
+}
+
 void ReadPoint(const Sides& sides, const btContactSolverInfo& info, ContactInput* input) {
   const btManifoldPoint& point = *input->point;
   input->arm_a = point.getPositionWorldOnA() - sides.origin_a;
@@ -126,7 +136,7 @@ void ReadPoint(const Sides& sides, const btContactSolverInfo& info, ContactInput
 }  // namespace
 
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
-                  StartFactors factors, BodyTable* bodies, ManifoldInput* result) {
+                  const ContactStart& start, BodyTable* bodies, ManifoldInput* result) {
   result->points = 0;
   if (manifold->getNumContacts() == 0) return;
   result->body_a = bodies->Number(*manifold->getBody0());
@@ -142,9 +152,7 @@ void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& inf
     ContactInput& input = result->inputs[result->points++];
     input.point = &point;
     ReadPoint(sides, info, &input);
-    input.normal_impulse *= factors.normal;
-    input.tangent_impulses[0] *= factors.friction;
-    input.tangent_impulses[1] *= factors.friction;
+    Start(start, &input);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "body_table.h"
 #include "cairn/bullet/precision.h"
 #include "friction_directions.h"
+#include "twist_memory.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -30,6 +31,7 @@ struct ContactInput {
   int twists;                ///< Rows that resist rolling and spinning, 0 to 3.
   btVector3 twist_axes[3];   ///< Of unit length unless rolling friction is anisotropic.
   btScalar twist_limits[3];  ///< The most they give [N m s], also their coefficients [m], >= 0.
+  TwistMemory::Impulses twist_impulses;
 };
 
 /// A manifold with those of its points that count.
@@ -40,17 +42,17 @@ struct ManifoldInput {
   ContactInput inputs[MANIFOLD_CACHE_SIZE];
 };
 
-/// What is asked of the start of contacts, as factors of the impulses left in the points, in [0,
-/// 1].
-struct StartFactors {
+/// What contacts start from: factors of the impulses of the substep before, in [0, 1].
+struct ContactStart {
   btScalar normal = 0, friction = 0;
+  TwistMemory* twists = nullptr;  ///< None: what resists rolling starts from nothing.
 };
 
 /// Reads a manifold. Writes the directions of friction to its points, as Bullet does, and nothing
 /// else. The result has no points if neither body reacts.
 /// @param[out] result  only as many inputs are written as it has points
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
-                  StartFactors factors, BodyTable* bodies, ManifoldInput* result);
+                  const ContactStart& start, BodyTable* bodies, ManifoldInput* result);
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet

@@ -25,10 +25,10 @@ ContactLaw::ContactLaw(const btContactSolverInfo& info, SweepLimits limits)
 
 void ContactRowBuilder::Append(const ManifoldInput& manifold) {
   if (manifold.points == 0) return;
-  body_a_ = manifold.body_a;
-  body_b_ = manifold.body_b;
-  a_ = SideOf(body_a_);
-  b_ = SideOf(body_b_);
+  row_.body_a = manifold.body_a;
+  row_.body_b = manifold.body_b;
+  a_ = SideOf(manifold.body_a);
+  b_ = SideOf(manifold.body_b);
   const size_t first = group_->points.size();
   for (int i = 0; i < manifold.points; ++i) {
     const ContactInput& input = manifold.inputs[i];
@@ -43,8 +43,10 @@ void ContactRowBuilder::Append(const ManifoldInput& manifold) {
 
 ContactRowBuilder::Side ContactRowBuilder::SideOf(int number) const {
   const btVector3 zero(0, 0, 0);
-  if (number == kWorld) return {nullptr, {zero, zero, zero, zero}};
-  return {&bodies_.rigid(number), bodies_.motion(number)};
+  if (number == kWorld) return {nullptr, zero, zero, zero, zero};
+  const Motion& motion = bodies_.motion(number);
+  return {&bodies_.rigid(number), motion.velocity, motion.spin,
+          motion.velocity + motion.external_velocity, motion.spin + motion.external_spin};
 }
 
 Axes ContactRowBuilder::AxesAlong(const btVector3& direction, const ContactInput& input) const {
@@ -61,10 +63,8 @@ Axes ContactRowBuilder::AxesAlong(const btVector3& direction, const ContactInput
   return axes;
 }
 
-Row ContactRowBuilder::RowOf(const Axes& axes) const {
-  Row row = law_.row;
-  row.body_a = body_a_;
-  row.body_b = body_b_;
+Row& ContactRowBuilder::AppendRow(const Axes& axes, double impulse) {
+  Row& row = group_->Append(row_, impulse);
   row.linear_a = ToEigen(axes.linear_a);
   row.angular_a = ToEigen(axes.angular_a);
   row.linear_b = ToEigen(axes.linear_b);
@@ -72,38 +72,26 @@ Row ContactRowBuilder::RowOf(const Axes& axes) const {
   return row;
 }
 
-/// J v with the velocities before the step, of which a share bounces.
-btScalar ContactRowBuilder::SpeedBefore(const Axes& axes) const {
-  return axes.linear_a.dot(a_.motion.velocity) + axes.angular_a.dot(a_.motion.spin) +
-         axes.linear_b.dot(b_.motion.velocity) + axes.angular_b.dot(b_.motion.spin);
-}
-
-/// J v with what forces and torques add over the step.
-btScalar ContactRowBuilder::NormalSpeed(const Axes& axes) const {
-  return axes.linear_a.dot(a_.motion.velocity + a_.motion.external_velocity) +
-         axes.angular_a.dot(a_.motion.spin + a_.motion.external_spin) +
-         axes.linear_b.dot(b_.motion.velocity + b_.motion.external_velocity) +
-         axes.angular_b.dot(b_.motion.spin + b_.motion.external_spin);
-}
-
-/// The same for friction: Bullet leaves out what torques add.
-btScalar ContactRowBuilder::TangentSpeed(const Axes& axes) const {
-  return axes.linear_a.dot(a_.motion.velocity + a_.motion.external_velocity) +
-         axes.angular_a.dot(a_.motion.spin) +
-         axes.linear_b.dot(b_.motion.velocity + b_.motion.external_velocity) +
-         axes.angular_b.dot(b_.motion.spin);
-}
-
 /// The speed at which restitution lets the bodies part.
 btScalar ContactRowBuilder::Bounce(const ContactInput& input, const Axes& axes) const {
-  const btScalar speed = SpeedBefore(axes);
+  if (!(input.restitution > 0)) return 0;
+  const btScalar speed = axes.linear_a.dot(a_.velocity) + axes.angular_a.dot(a_.spin) +
+                         axes.linear_b.dot(b_.velocity) + axes.angular_b.dot(b_.spin);
   if (btFabs(speed) < law_.restitution_threshold) return 0;
   return btMax(btScalar(0), -input.restitution * speed);
 }
 
+/// J v for friction: Bullet leaves out what torques add over the step.
+btScalar ContactRowBuilder::TangentSpeed(const Axes& axes) const {
+  return axes.linear_a.dot(a_.driven) + axes.angular_a.dot(a_.spin) + axes.linear_b.dot(b_.driven) +
+         axes.angular_b.dot(b_.spin);
+}
+
 int ContactRowBuilder::AppendNormal(const ContactInput& input) {
   const Axes axes = AxesAlong(input.normal, input);
-  btScalar target = Bounce(input, axes) - NormalSpeed(axes);
+  const btScalar speed = axes.linear_a.dot(a_.driven) + axes.angular_a.dot(a_.driven_spin) +
+                         axes.linear_b.dot(b_.driven) + axes.angular_b.dot(b_.driven_spin);
+  btScalar target = Bounce(input, axes) - speed;
   if (input.distance > 0) {
     target -= input.distance / law_.time_step;
   } else {
@@ -111,14 +99,15 @@ int ContactRowBuilder::AppendNormal(const ContactInput& input) {
     if (!law_.splits || input.distance > law_.split_threshold) {
       target += out;
     } else if (out != 0) {
-      pushes_->Add({body_a_, body_b_, axes, out, input.compliance}, law_.over_relaxation, bodies_);
+      pushes_->Add({row_.body_a, row_.body_b, axes, out, input.compliance}, law_.over_relaxation,
+                   bodies_);
     }
   }
-  Row row = RowOf(axes);
+  Row& row = AppendRow(axes, input.normal_impulse);
   row.target = Target(target);
   row.compliance = input.compliance;
   row.lo = 0;
-  return group_->Add(row, input.normal_impulse);
+  return static_cast<int>(group_->rows.size()) - 1;
 }
 
 void ContactRowBuilder::AppendFriction(const ContactInput& input, int tangents, PointRows* rows) {
@@ -126,17 +115,15 @@ void ContactRowBuilder::AppendFriction(const ContactInput& input, int tangents, 
   rows->frictions = tangents;
   for (int k = 0; k < tangents; ++k) {
     const Axes axes = AxesAlong(input.tangents[k], input);
-    Row row = RowOf(axes);
+    Row& row = AppendRow(axes, input.tangent_impulses[k]);
     row.target = Target(input.tangent_speeds[k] - TangentSpeed(axes));
-    if (input.slip != 0) {
-      // Bullet has it in units of its step
-      row.compliance =
-          input.slip / law_.over_relaxation *
-          (ContactDiagonal(a_.rigid, axes.angular_a) + ContactDiagonal(b_.rigid, axes.angular_b));
-    }
     row.parent = rows->normal_row;
     row.friction = input.friction;
-    group_->Add(row, input.tangent_impulses[k]);
+    if (input.slip == 0) continue;
+    // Bullet has it in units of its step
+    row.compliance =
+        input.slip / law_.over_relaxation *
+        (ContactDiagonal(a_.rigid, axes.angular_a) + ContactDiagonal(b_.rigid, axes.angular_b));
   }
 }
 
@@ -147,7 +134,7 @@ void ContactRowBuilder::AppendTwists(const ContactInput& input, PointRows* rows)
   for (int k = 0; k < input.twists; ++k) {
     const Axes axes{zero, a_.rigid != nullptr ? -input.twist_axes[k] : zero, zero,
                     b_.rigid != nullptr ? input.twist_axes[k] : zero};
-    Row row = RowOf(axes);
+    Row& row = AppendRow(axes, input.twist_impulses[k]);
     row.relaxation = 1;
     row.target = Target(-TangentSpeed(axes));
     // bounded by the coefficient as well as by the coefficient times the normal impulse
@@ -155,7 +142,6 @@ void ContactRowBuilder::AppendTwists(const ContactInput& input, PointRows* rows)
     row.hi = input.twist_limits[k];
     row.parent = rows->normal_row;
     row.friction = input.twist_limits[k];
-    group_->Add(row, 0);
   }
 }
 

@@ -32,7 +32,7 @@ class ContactRowBuilder {
   /// normal.
   ContactRowBuilder(const ContactLaw& law, const BodyTable& bodies, GroupProblem* group,
                     SplitImpulse* pushes)
-      : law_(law), bodies_(bodies), group_(group), pushes_(pushes) {}
+      : law_(law), bodies_(bodies), group_(group), pushes_(pushes), row_(law.row) {}
 
   void Append(const ManifoldInput& manifold);
 
@@ -40,16 +40,16 @@ class ContactRowBuilder {
   /// A body of the present manifold: none and at rest for the world.
   struct Side {
     const btRigidBody* rigid;
-    Motion motion;
+    btVector3 velocity, spin;       ///< Before the step: what bounces.
+    btVector3 driven, driven_spin;  ///< With what forces and torques add over the step.
   };
 
   Side SideOf(int number) const;
   Axes AxesAlong(const btVector3& direction, const ContactInput& input) const;
-  Row RowOf(const Axes& axes) const;
-  btScalar SpeedBefore(const Axes& axes) const;
-  btScalar NormalSpeed(const Axes& axes) const;
-  btScalar TangentSpeed(const Axes& axes) const;
+  /// Appends a row along some axes.
+  Row& AppendRow(const Axes& axes, double impulse);
   btScalar Bounce(const ContactInput& input, const Axes& axes) const;
+  btScalar TangentSpeed(const Axes& axes) const;
 
   int AppendNormal(const ContactInput& input);
   void AppendFriction(const ContactInput& input, int tangents, PointRows* rows);
@@ -59,7 +59,7 @@ class ContactRowBuilder {
   const BodyTable& bodies_;
   GroupProblem* group_;
   SplitImpulse* pushes_;
-  int body_a_ = kWorld, body_b_ = kWorld;
+  Row row_;  ///< What all rows of the present manifold share.
   Side a_, b_;
 };
 

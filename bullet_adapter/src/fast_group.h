@@ -15,6 +15,7 @@
 #include "group_problem.h"
 #include "joint_rows.h"
 #include "split_impulse.h"
+#include "twist_memory.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -52,14 +53,15 @@ class FastGroup {
   void Write(const btContactSolverInfo& info);
 
   /// Starts the next group cold where only this knows what it could start from.
-  void Forget() { memory_.Forget(); }
+  void Forget();
 
  private:
   BodyTable bodies_;
   GroupProblem group_;
   SplitImpulse pushes_;
-  JointMemory memory_;
-  JointRowBuilder joint_builder_{&bodies_, &memory_, &group_};
+  JointMemory joint_memory_;
+  TwistMemory twist_memory_;
+  JointRowBuilder joint_builder_{&bodies_, &joint_memory_, &group_};
   std::vector<Velocity> velocities_;
 };
 

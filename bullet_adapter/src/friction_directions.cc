@@ -44,15 +44,6 @@ btVector3 AnisotropicForBoth(const btPersistentManifold& manifold, const btVecto
                      Anisotropic(*manifold.getBody0(), kMode, direction));
 }
 
-void DirectAlongVelocity(const btVector3& unit, const btPersistentManifold& manifold,
-                         FrictionDirections* directions) {
-  const btVector3& normal = directions->second;
-  const PlaneAxes axes = AxesOf(normal);
-  directions->left.heading = ToHeading(unit.dot(axes.x), unit.dot(axes.y));
-  directions->first = AnisotropicForBoth(manifold, unit);
-  directions->second = AnisotropicForBoth(manifold, directions->first.cross(normal).normalized());
-}
-
 }  // namespace
 
 btVector3 Anisotropic(const btCollisionObject& object, int mode, const btVector3& direction) {
@@ -65,6 +56,7 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
                                     const btPersistentManifold& manifold, btManifoldPoint* point) {
   FrictionDirections result;
   const bool both = (solver_mode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0;
+  result.count = both ? 2 : 1;
   const bool by_velocity =
       (solver_mode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) == 0;
   if ((solver_mode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0 &&
@@ -80,10 +72,13 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
   const btVector3 lateral = velocity - normal * normal.dot(velocity);
   const btScalar speed2 = lateral.length2();
   if (by_velocity && speed2 > SIMD_EPSILON) {
-    result.second = normal;
-    DirectAlongVelocity(lateral * (1 / btSqrt(speed2)), manifold, &result);
-    point->m_lateralFrictionDir1 = result.first;
-    if (both) point->m_lateralFrictionDir2 = result.second;
+    const btVector3 unit = lateral * (1 / btSqrt(speed2));
+    const PlaneAxes axes = AxesOf(normal);
+    result.left.heading = ToHeading(unit.dot(axes.x), unit.dot(axes.y));
+    point->m_lateralFrictionDir1 = result.first = AnisotropicForBoth(manifold, unit);
+    if (!both) return result;
+    result.second = AnisotropicForBoth(manifold, result.first.cross(normal).normalized());
+    point->m_lateralFrictionDir2 = result.second;
     return result;
   }
 
@@ -97,9 +92,10 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
   return result;
 }
 
-btVector3 LeftFriction(const btManifoldPoint& point) {
+btVector3 LeftFriction(const btManifoldPoint& point, int directions) {
   const PlaneAxes axes = AxesOf(point.m_normalWorldOnB);
-  const btScalar first = point.m_appliedImpulseLateral1, second = point.m_appliedImpulseLateral2;
+  const btScalar first = point.m_appliedImpulseLateral1;
+  const btScalar second = directions > 1 ? point.m_appliedImpulseLateral2 : btScalar(0);
   if (!(point.m_prevRHS >= 1 && point.m_prevRHS <= 5)) return axes.x * first + axes.y * second;
   const PlaneVector along = FromHeading(point.m_prevRHS);
   return axes.x * (along.x * first + along.y * second) +

@@ -22,7 +22,8 @@ struct LeftDirections {
 
 /// The directions of friction at a point.
 struct FrictionDirections {
-  btVector3 first, second;
+  btVector3 first, second{0, 0, 0};  ///< The second only where there are two.
+  int count = 1;                     ///< 1 or 2
   LeftDirections left;
   bool by_user = false;  ///< Set before the solver: with target speeds of their own.
   /// The same as in the substep before, so that impulses can be taken over as they are.
@@ -41,7 +42,8 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
 
 /// The impulse [N s] that friction left at a point, in world axes; its place in the plane of
 /// contact is kept where the normal has turned since.
-btVector3 LeftFriction(const btManifoldPoint& point);
+/// @param directions  1 or 2; with one, the second lateral impulse is not Bullet's to write
+btVector3 LeftFriction(const btManifoldPoint& point, int directions);
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet

@@ -42,11 +42,11 @@ struct GroupProblem {
     points.clear();
   }
 
-  /// Appends a row and returns its index.
-  int Add(const Row& row, double impulse) {
-    rows.push_back(row);
+  /// Appends a row that begins as a copy of @p law. The reference is good until the next one.
+  Row& Append(const Row& law, double impulse) {
     impulses.push_back(impulse);
-    return static_cast<int>(rows.size()) - 1;
+    rows.push_back(law);
+    return rows.back();
   }
 };
 

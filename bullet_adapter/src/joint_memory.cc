@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "joint_memory.h"
 
-#include <algorithm>
-
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
@@ -41,22 +39,23 @@ bool Alike(const std::array<float, 12>& a, const std::array<float, 12>& b) {
 
 void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor) {
   factor_ = factor;
-  next_ = 0;
-  by_address_.clear();
+  index_.Rewind();
   applied_.clear();
   for (btTypedConstraint* joint : joints) applied_.push_back(joint->internalGetAppliedImpulse());
 }
 
 void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) {
   if (factor_ == 0) return;
-  const Entry* const entry = Find(joint.joint);
-  const bool same = entry != nullptr && entry->type == joint.joint->getConstraintType() &&
-                    entry->body_a == &joint.joint->getRigidBodyA() &&
-                    entry->body_b == &joint.joint->getRigidBodyB() && entry->rows == joint.rows &&
-                    entry->applied_impulse == applied_[place];
-  if (!same || !PointAlike(*entry, joint, *group)) return;
+  const int found = index_.Find(joint.joint);
+  if (found < 0) return;
+  const Entry& entry = entries_[found];
+  const bool same = entry.type == joint.joint->getConstraintType() &&
+                    entry.body_a == &joint.joint->getRigidBodyA() &&
+                    entry.body_b == &joint.joint->getRigidBodyB() && entry.rows == joint.rows &&
+                    entry.applied_impulse == applied_[place];
+  if (!same || !PointAlike(entry, joint, *group)) return;
   for (int i = 0; i < joint.rows; ++i) {
-    group->impulses[joint.first_row + i] = factor_ * rows_[entry->first_row + i].impulse;
+    group->impulses[joint.first_row + i] = factor_ * rows_[entry.first_row + i].impulse;
   }
 }
 
@@ -69,28 +68,11 @@ bool JointMemory::PointAlike(const Entry& entry, const JointRows& joint,
   return true;
 }
 
-const JointMemory::Entry* JointMemory::Find(const btTypedConstraint* joint) {
-  // joints mostly come in the same order again
-  if (next_ < entries_.size() && entries_[next_].joint == joint) return &entries_[next_++];
-  if (by_address_.empty()) {
-    for (size_t i = 0; i < entries_.size(); ++i) {
-      by_address_.emplace_back(reinterpret_cast<std::uintptr_t>(entries_[i].joint),
-                               static_cast<int>(i));
-    }
-    std::ranges::sort(by_address_);
-  }
-  const auto address = reinterpret_cast<std::uintptr_t>(joint);
-  const auto found = std::ranges::lower_bound(by_address_, std::pair(address, 0));
-  if (found == by_address_.end() || found->first != address) return nullptr;
-  next_ = found->second + 1;
-  return &entries_[found->second];
-}
-
 void JointMemory::Keep(const GroupProblem& group) {
-  entries_.clear();
-  rows_.clear();
+  Forget();
   for (const JointRows& joint : group.joints) {
-    entries_.push_back({joint.joint, &joint.joint->getRigidBodyA(), &joint.joint->getRigidBodyB(),
+    index_.Add(joint.joint);
+    entries_.push_back({&joint.joint->getRigidBodyA(), &joint.joint->getRigidBodyB(),
                         joint.joint->getConstraintType(), static_cast<int>(rows_.size()),
                         joint.rows, joint.joint->internalGetAppliedImpulse()});
     for (int i = 0; i < joint.rows; ++i) {
@@ -101,6 +83,7 @@ void JointMemory::Keep(const GroupProblem& group) {
 }
 
 void JointMemory::Forget() {
+  index_.Clear();
   entries_.clear();
   rows_.clear();
 }

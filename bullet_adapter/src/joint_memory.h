@@ -2,11 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "address_index.h"
 #include "cairn/bullet/precision.h"
 #include "group_problem.h"
 
@@ -31,7 +30,6 @@ class JointMemory {
 
  private:
   struct Entry {
-    const btTypedConstraint* joint;
     const btRigidBody *body_a, *body_b;
     int type, first_row, rows;
     btScalar applied_impulse;
@@ -41,15 +39,13 @@ class JointMemory {
     double impulse;
   };
 
-  const Entry* Find(const btTypedConstraint* joint);
   bool PointAlike(const Entry& entry, const JointRows& joint, const GroupProblem& group) const;
 
   btScalar factor_ = 0;
   std::vector<btScalar> applied_;  ///< of the present joints, by place
   std::vector<Entry> entries_;
   std::vector<KeptRow> rows_;
-  size_t next_ = 0;  ///< where the next joint is likely to be among the entries
-  std::vector<std::pair<std::uintptr_t, int>> by_address_;
+  AddressIndex index_;  ///< of the entries
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -84,18 +84,17 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   const int own = joint->getOverrideNumSolverIterations();
   const int sweeps = own > 0 ? own : info.m_numIterations;
   most_sweeps_ = std::max(most_sweeps_, sweeps);
-  const int body_a = bodies_->Number(joint->getRigidBodyA());
-  const int body_b = bodies_->Number(joint->getRigidBodyB());
-  if (!bodies_->reacts(body_a) && !bodies_->reacts(body_b)) return result;
+  const btRigidBody &a = joint->getRigidBodyA(), &b = joint->getRigidBodyB();
+  Row law{.body_a = bodies_->Number(a), .body_b = bodies_->Number(b)};
+  if (!bodies_->reacts(law.body_a) && !bodies_->reacts(law.body_b)) return result;
+  if (limits == SweepLimits::kBullet) law.max_sweeps = sweeps;
 
   result.rows = size.m_numConstraintRows;
-  for (const Slot& slot : slots_) {
-    Row row = ToRow(*joint, slot, damping);
-    row.body_a = body_a;
-    row.body_b = body_b;
-    if (limits == SweepLimits::kBullet) row.max_sweeps = sweeps;
-    group_->Add(row, 0);
-  }
+  const auto motion = [this](int number) {
+    return number == kWorld ? nullptr : &bodies_->motion(number);
+  };
+  const Ends ends{a, b, motion(law.body_a), motion(law.body_b), law};
+  for (const Slot& slot : slots_) AppendRow(ends, slot, damping);
   return result;
 }
 
@@ -133,32 +132,26 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, int rows,
   return query.m_damping;
 }
 
-Row JointRowBuilder::ToRow(const btTypedConstraint& joint, const Slot& slot, btScalar damping) {
-  const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
+void JointRowBuilder::AppendRow(const Ends& ends, const Slot& slot, btScalar damping) {
   const btVector3 linear_a = ToVector(slot.linear_a), angular_a = ToVector(slot.angular_a);
   const btVector3 linear_b = ToVector(slot.linear_b), angular_b = ToVector(slot.angular_b);
-  // Bullet's D leaves the cfm of a joint out
-  Row row{.linear_a = ToEigen(linear_a),
-          .angular_a = ToEigen(angular_a),
-          .linear_b = ToEigen(linear_b),
-          .angular_b = ToEigen(angular_b),
-          .lo = Bound(slot.lower),
-          .hi = Bound(slot.upper),
-          .relaxation = Relaxation(1 + slot.cfm)};
+  Row& row = group_->Append(ends.law, 0);
+  row.linear_a = ToEigen(linear_a);
+  row.angular_a = ToEigen(angular_a);
+  row.linear_b = ToEigen(linear_b);
+  row.angular_b = ToEigen(angular_b);
+  row.lo = Bound(slot.lower);
+  row.hi = Bound(slot.upper);
+  row.relaxation = Relaxation(1 + slot.cfm);  // Bullet's D leaves the cfm of a joint out
 
   const btScalar diagonal =
-      HalfDiagonal(a, linear_a, angular_a) + HalfDiagonal(b, linear_b, angular_b);
-  if (!(btFabs(diagonal) > SIMD_EPSILON)) return row;
-  const auto motion = [this](const btRigidBody& rigid) {
-    const int number = bodies_->Number(rigid);
-    return number == kWorld ? nullptr : &bodies_->motion(number);
-  };
-  const btScalar speed =
-      HalfSpeed(a, motion(a), linear_a, angular_a) + HalfSpeed(b, motion(b), linear_b, angular_b);
+      HalfDiagonal(ends.a, linear_a, angular_a) + HalfDiagonal(ends.b, linear_b, angular_b);
+  if (!(btFabs(diagonal) > SIMD_EPSILON)) return;
+  const btScalar speed = HalfSpeed(ends.a, ends.motion_a, linear_a, angular_a) +
+                         HalfSpeed(ends.b, ends.motion_b, linear_b, angular_b);
   const double target = static_cast<double>(slot.error) - static_cast<double>(speed * damping);
   row.target = std::clamp(target, -kMostTarget, kMostTarget);
   row.compliance = static_cast<double>(slot.cfm) * diagonal;
-  return row;
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

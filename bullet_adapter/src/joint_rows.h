@@ -45,12 +45,19 @@ class JointRowBuilder {
     btScalar error, cfm, lower, upper;
   };
 
+  /// The bodies of a joint. Motions of those that have a number, none for others.
+  struct Ends {
+    const btRigidBody &a, &b;
+    const Motion *motion_a, *motion_b;
+    Row law;
+  };
+
   /// Returns the rows that were appended, none where neither body reacts.
   JointRows AppendJoint(btTypedConstraint* joint, const btContactSolverInfo& info,
                         SweepLimits limits);
   /// Returns the damping of the rows.
   btScalar FillSlots(btTypedConstraint* joint, int rows, const btContactSolverInfo& info);
-  Row ToRow(const btTypedConstraint& joint, const Slot& slot, btScalar damping);
+  void AppendRow(const Ends& ends, const Slot& slot, btScalar damping);
 
   BodyTable* bodies_;
   JointMemory* memory_;

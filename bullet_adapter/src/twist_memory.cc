@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#include "twist_memory.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+TwistMemory::Impulses TwistMemory::Find(const btManifoldPoint& point) {
+  const int place = index_.Find(&point);
+  if (place < 0 || entries_[place].normal_impulse != point.m_appliedImpulse) return {};
+  return entries_[place].impulses;
+}
+
+void TwistMemory::Keep(const GroupProblem& group) {
+  Forget();
+  for (const PointRows& rows : group.points) {
+    if (rows.twists == 0 || rows.point->m_appliedImpulse == 0) continue;
+    Entry entry{rows.point->m_appliedImpulse, {}};
+    for (int k = 0; k < rows.twists; ++k) {
+      entry.impulses[k] = static_cast<btScalar>(group.impulses[rows.twist_row + k]);
+    }
+    index_.Add(rows.point);
+    entries_.push_back(entry);
+  }
+}
+
+void TwistMemory::Forget() {
+  index_.Clear();
+  entries_.clear();
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet
