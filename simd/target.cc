@@ -39,7 +39,8 @@ std::optional<Target> FindTarget(std::string_view name) {
 
 std::vector<Target> SupportedTargets() {
   // HWY_TARGETS are the targets this compiler builds, SupportedTargets() those this CPU runs.
-  const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+  // Asking the CPU takes microseconds, and tens of them in a virtual machine.
+  static const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
   std::vector<Target> targets;
   for (const Entry& entry : kEntries) {
     if (entry.target == Target::kScalar || (usable & entry.highway) != 0) {

@@ -15,9 +15,9 @@
 #include <benchmark/benchmark.h>
 
 #include "micro/body_matrix.h"
+#include "micro/eigen_cholesky.h"
 #include "micro/multiply_add_peak.h"
 #include "simd/target.h"
-#include "subspace/eigen_cholesky.h"
 #include "subspace/front_cholesky.h"
 #if CAIRN_HAS_CHOLMOD
 #include "micro/cholmod_factor.h"

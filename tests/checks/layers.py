@@ -26,9 +26,10 @@ MAY_INCLUDE = {
 THIRD_PARTIES = {
     "Highway": (r"hwy/", r"(tests/)?simd/.*(\.cc|-inl\.h)$"),
     "oneTBB": (r"(tbb|oneapi)/", r"core/src/executor_tbb"),
+    "Eigen's orderings": (r"Eigen/OrderingMethods$", r"core/src/subspace/minimum_degree\.|tests/"),
     "Eigen's sparse factorisations": (
-        r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|OrderingMethods|.*Support|Iterative.*)$",
-        r"core/src/subspace/eigen_cholesky\.|tests/"),
+        r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|.*Support|Iterative.*)$",
+        r"bench/micro/eigen_cholesky\.|tests/"),
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),

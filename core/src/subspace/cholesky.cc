@@ -16,7 +16,7 @@ BlockCholesky::BlockCholesky(BlockCholesky&&) noexcept = default;
 BlockCholesky& BlockCholesky::operator=(BlockCholesky&&) noexcept = default;
 
 void BlockCholesky::Analyse(int bodies, std::span<const BodyPair> pairs) {
-  impl_->factor.Analyse(bodies, 6, pairs);
+  impl_->factor.Analyse(bodies, 6, pairs, {}, FrontCholesky<double>::Workers::kOne);
 }
 
 double BlockCholesky::factor_flops() const { return impl_->factor.pattern().flops(); }

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "subspace/eigen_cholesky.h"
+#include "subspace/minimum_degree.h"
 
 namespace cairn {
 namespace {
@@ -155,10 +155,25 @@ std::vector<int> ColumnCounts(const Graph& graph, std::span<const int> order,
   return counts;
 }
 
+/// n^2 + (n - 1)^2 + ... + 1.
+double SumOfSquares(double n) { return n * (n + 1) * (2 * n + 1) / 6; }
+
+/// Time of a front of scalars, in multiplications and additions of a large one: what comes with
+/// every front, with an entry of its padded columns, and with one of what it leaves to its parent.
+double ScalarCost(int pivots, int rows) {
+  constexpr double kFront = 500, kEntry = 8, kUpdateEntry = 12;
+  const auto padded = [](int count) { return (count + 3) / 4 * 4; };
+  const double longest = rows, below = rows - pivots;
+  const double entries = pivots * static_cast<double>(padded(pivots) + padded(rows - pivots));
+  return kFront + kEntry * entries + kUpdateEntry * below * (below + 1) / 2 +
+         SumOfSquares(longest) - SumOfSquares(below);
+}
+
 /// Nodes that are eliminated together, as they are joined.
 struct Group {
   int pivots, rows;  ///< rows with those of the pivots
   double zeros;      ///< entries of its columns that joining has added
+  double cost = ScalarCost(pivots, rows);
 
   double entries() const { return pivots * (rows - 0.5 * (pivots - 1)); }
 };
@@ -170,8 +185,10 @@ Group Joined(const Group& child, const Group& group) {
   return both;
 }
 
-/// Small fronts run slower, so zeros are worth more there.
-bool WorthJoining(const Group& both, int node_size) {
+/// Whether a group and its child are better off as one. Blocks: small fronts run slower, so zeros
+/// are worth more there.
+bool WorthJoining(const Group& child, const Group& group, const Group& both, int node_size) {
+  if (node_size == 1) return both.cost <= child.cost + group.cost;
   const int columns = both.pivots * node_size;
   const double most = columns <= 24 ? 0.18 : columns <= 48 ? 0.10 : columns <= 96 ? 0.06 : 0.015;
   return both.zeros <= most * both.entries();
@@ -193,17 +210,23 @@ std::vector<int> JoinNodes(std::span<const int> parent, std::span<const int> cou
   for (int i = 0; i < nodes; ++i) {
     groups[i] = {1, counts[i], 0};
     joined_to[i] = i;
+    const auto join = [&](int child) {
+      const Group both = Joined(groups[child], groups[i]);
+      if (!WorthJoining(groups[child], groups[i], both, node_size)) return;
+      groups[i] = both;
+      joined_to[child] = i;
+    };
+    const int first = first_child[i];
+    if (first >= 0 && next_sibling[first] < 0) {
+      join(first);
+      continue;
+    }
     candidates.clear();
-    for (int child = first_child[i]; child >= 0; child = next_sibling[child]) {
+    for (int child = first; child >= 0; child = next_sibling[child]) {
       candidates.emplace_back(Joined(groups[child], groups[i]).zeros, child);
     }
     std::sort(candidates.begin(), candidates.end());
-    for (const auto& [zeros, child] : candidates) {
-      const Group both = Joined(groups[child], groups[i]);
-      if (!WorthJoining(both, node_size)) continue;
-      groups[i] = both;
-      joined_to[child] = i;
-    }
+    for (const auto& [zeros, child] : candidates) join(child);
   }
   for (int i = nodes - 1; i >= 0; --i) joined_to[i] = joined_to[joined_to[i]];
   return joined_to;
@@ -217,8 +240,8 @@ class FactorPattern::Builder {
   Builder(FactorPattern* pattern, int nodes, std::span<const NodePair> pairs)
       : pattern_(*pattern), graph_(MakeGraph(nodes, pairs)) {}
 
-  void Build() {
-    OrderNodes();
+  void Build(std::span<const int> order) {
+    OrderNodes(order.empty() ? Order(graph_) : std::vector<int>(order.begin(), order.end()));
     CountEntries();
     MakeFronts();
     FindRows();
@@ -226,9 +249,8 @@ class FactorPattern::Builder {
   }
 
  private:
-  /// Minimum degree, then postorder: the same fill, and groups are close together.
-  void OrderNodes() {
-    const std::vector<int> chosen = Order(graph_);
+  /// Postorder: the same fill, and groups are close together.
+  void OrderNodes(std::span<const int> chosen) {
     const std::vector<int> parent = EliminationTree(graph_, chosen, Inverse(chosen));
     Reorder(chosen, parent, Postorder(parent));
   }
@@ -341,17 +363,16 @@ class FactorPattern::Builder {
   std::vector<int> order_, parent_, counts_;  ///< by position
 };
 
-void FactorPattern::Analyse(int nodes, int node_size, std::span<const NodePair> pairs) {
+void FactorPattern::Analyse(int nodes, int node_size, std::span<const NodePair> pairs,
+                            std::span<const int> order) {
   node_size_ = node_size;
-  Builder(this, nodes, pairs).Build();
+  Builder(this, nodes, pairs).Build(order);
 }
 
 double FactorPattern::flops(const Front& front) const {
   const double pivots = static_cast<double>(front.pivots) * node_size_;
   const double longest = pivots + static_cast<double>(rows(front).size()) * node_size_;
-  // sum of the squares of longest, longest - 1 ...
-  const auto squares = [](double n) { return n * (n + 1) * (2 * n + 1) / 6; };
-  return squares(longest) - squares(longest - pivots);
+  return SumOfSquares(longest) - SumOfSquares(longest - pivots);
 }
 
 }  // namespace cairn

@@ -12,8 +12,9 @@ using NodePair = std::pair<int, int>;
 
 /// Where the numbers of a sparse symmetric matrix and of its Cholesky factor lie: found from the
 /// pattern alone. Rows come in nodes of equal size, six for a body. Nodes are eliminated in a
-/// minimum degree order; those that have nearly the same rows below them are eliminated together,
-/// as the first columns of one dense front. What is left of a front is added to its parent's.
+/// minimum degree order or in one with its fill; those that have nearly the same rows below them
+/// are eliminated together, as the first columns of one dense front. What is left of a front is
+/// added to its parent's.
 ///
 /// J. W. H. Liu, "The multifrontal method for sparse matrix solution: theory and practice", SIAM
 /// Review 34 (1992). Fronts are joined more sparingly than elsewhere: on graphs of bodies the zeros
@@ -29,8 +30,10 @@ class FactorPattern {
     int children_begin, children_end;  ///< in children()
   };
 
-  /// @p pairs: ascending, each once. Those that turn out to hold zeros do no harm.
-  void Analyse(int nodes, int node_size, std::span<const NodePair> pairs);
+  /// @p pairs: ascending, each once. Those that turn out to hold zeros do no harm. @p order: nodes
+  /// as they are to be eliminated, up to changes that bring no fill; empty: minimum degree.
+  void Analyse(int nodes, int node_size, std::span<const NodePair> pairs,
+               std::span<const int> order = {});
 
   int nodes() const { return static_cast<int>(position_.size()); }
   int node_size() const { return node_size_; }

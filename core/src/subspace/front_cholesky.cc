@@ -43,7 +43,7 @@ void FrontCholesky<T>::CopyBlocks(int front) {
   const std::ptrdiff_t stride = at.panel_stride();
   const int size = kNodeSize > 0 ? kNodeSize : pattern_.node_size();
   for (int k = places_[front].blocks_begin; k < places_[front].blocks_end; ++k) {
-    const T* const from = values_.data() + blocks_[k].from;
+    const T* const from = ValuesOf(k);
     T* const to = at.panel + blocks_[k].to;
     if (blocks_[k].transposed) {
       for (int j = 0; j < size; ++j) {
@@ -153,7 +153,7 @@ class FrontCholesky<T>::Stages final : public StagedWork {
 
 template <class T>
 bool FrontCholesky<T>::Factorise(Crew* crew) {
-  if (crew != nullptr && pattern_.flops() > kSerialFlops) {
+  if (crew != nullptr && !stages_.empty() && pattern_.flops() > kSerialFlops) {
     Stages work(this);
     crew->Run(&work);
     return work.fits();

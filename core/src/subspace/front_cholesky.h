@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <new>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -10,19 +10,9 @@
 #include "simd/front_kernels.h"
 #include "simd/target.h"
 #include "subspace/factor_pattern.h"
+#include "subspace/line_allocator.h"
 
 namespace cairn {
-
-/// Numbers from the beginning of a cache line on.
-template <class T>
-struct LineAllocator {
-  using value_type = T;
-  T* allocate(std::size_t count) {
-    return static_cast<T*>(::operator new(count * sizeof(T), std::align_val_t(64)));
-  }
-  void deallocate(T* memory, std::size_t) { ::operator delete(memory, std::align_val_t(64)); }
-  bool operator==(const LineAllocator&) const { return true; }
-};
 
 /// Multifrontal Cholesky factor of a sparse symmetric positive definite matrix of dense blocks, in
 /// float or double. Same bits on every target and with any number of threads. Allocates in
@@ -32,21 +22,24 @@ class FrontCholesky {
  public:
   explicit FrontCholesky(simd::Target target);
 
-  /// Orders the nodes, finds the pattern of the factor and lays out memory. The matrix is zero
+  /// Who factorises: a crew needs more memory.
+  enum class Workers { kOne, kCrew };
+
+  /// Finds the pattern of the factor, see FactorPattern, and lays out memory. The matrix is zero
   /// then.
-  /// @p pairs: ascending, each once.
-  void Analyse(int nodes, int node_size, std::span<const NodePair> pairs);
+  void Analyse(int nodes, int node_size, std::span<const NodePair> pairs,
+               std::span<const int> order = {}, Workers workers = Workers::kCrew);
   const FactorPattern& pattern() const { return pattern_; }
 
   /// The matrix, which Factorise() leaves as it is: blocks of node_size x node_size numbers,
   /// column-major. The lower triangle of a node with itself, and the block with the rows of the
   /// first node of a pair and the columns of the second.
-  T* diagonal(int node) { return values_.data() + diagonal_begin_[node]; }
-  T* upper(int pair) { return values_.data() + upper_begin_[pair]; }
+  T* diagonal(int node) { return ValuesOf(block_of_[node]); }
+  T* upper(int pair) { return ValuesOf(block_of_[pattern_.nodes() + pair]); }
   void SetZero();
 
   /// False if the matrix is not positive definite: if rounding leaves of a pivot no more than that
-  /// of its diagonal entry, or if it is not finite.
+  /// of its diagonal entry, or if it is not finite. @p crew: has to be announced in Analyse().
   [[nodiscard]] bool Factorise(Crew* crew = nullptr);
 
   /// x := matrix^-1 x, node_size numbers for each node in the order of Analyse().
@@ -59,9 +52,8 @@ class FrontCholesky {
 
   /// Where a block of the matrix goes.
   struct Block {
-    std::size_t from;   ///< in values_
-    std::ptrdiff_t to;  ///< in the panel of its front
-    bool transposed;
+    std::uint64_t to : 63;  ///< in the panel of its front
+    std::uint64_t transposed : 1;
   };
   /// Memory of a front.
   struct Place {
@@ -86,12 +78,19 @@ class FrontCholesky {
   void CutTree();
   void FindSubtrees();
   void AddTopStages(int front);
-  void PlaceUpdates();
+  class Planner;
+  std::size_t UpdateSize(int front) const;
+  void PlaceUpdate(int front, Planner* planner);
+  std::size_t PlaceUpdates();
+  std::size_t PlaceUpdatesOfSubtrees();
 
   /// Rows that are one unit of a stage above the subtrees, a multiple of the padding.
   static constexpr int kRowsOfUnit = 96;
   static int UnitsOf(int rows) { return (rows + kRowsOfUnit - 1) / kRowsOfUnit; }
 
+  T* ValuesOf(std::size_t block) {
+    return values_.data() + block * pattern_.node_size() * pattern_.node_size();
+  }
   int Scalars(int nodes) const { return nodes * pattern_.node_size(); }
   /// Without memory.
   simd::Front<T> ShapeOf(int front) const;
@@ -118,8 +117,8 @@ class FrontCholesky {
   const simd::FrontKernels<T>& kernels_;
   FactorPattern pattern_;
 
-  std::vector<std::size_t> diagonal_begin_, upper_begin_;
-  std::vector<Block> blocks_;  ///< by front
+  std::vector<Block> blocks_;  ///< by front, as their numbers are in values_
+  std::vector<int> block_of_;  ///< of nodes, then of pairs
   std::vector<Place> places_;  ///< one per front
   std::vector<simd::RowRun> runs_;
   std::vector<int> subtree_of_;      ///< of each front; -1 above all

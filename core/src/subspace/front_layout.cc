@@ -14,8 +14,11 @@ constexpr int kPivotsOfStage = 2 * simd::kFrontStep;
 
 std::size_t RoundToLine(std::size_t numbers) { return (numbers + 15) / 16 * 16; }
 
+}  // namespace
+
 /// Places in memory for things that come and go, found before there is memory.
-class Planner {
+template <class T>
+class FrontCholesky<T>::Planner {
  public:
   explicit Planner(std::size_t begin) : end_(begin) {}
 
@@ -58,17 +61,18 @@ class Planner {
   std::size_t end_;
 };
 
-}  // namespace
-
 template <class T>
-void FrontCholesky<T>::Analyse(int nodes, int node_size, std::span<const NodePair> pairs) {
-  pattern_.Analyse(nodes, node_size, pairs);
+void FrontCholesky<T>::Analyse(int nodes, int node_size, std::span<const NodePair> pairs,
+                               std::span<const int> order, Workers workers) {
+  pattern_.Analyse(nodes, node_size, pairs, order);
   places_.assign(pattern_.fronts().size(), {});
   PlaceBlocks(pairs);
   PlacePanels();
   FindRuns();
-  CutTree();
-  PlaceUpdates();
+  stages_.clear();
+  if (workers == Workers::kCrew) CutTree();
+  const std::size_t updates = workers == Workers::kCrew ? PlaceUpdatesOfSubtrees() : PlaceUpdates();
+  updates_.assign(updates + simd::kFrontSlack, 0);
 
   int longest = 0;
   for (int f = 0; f < static_cast<int>(places_.size()); ++f) {
@@ -82,50 +86,45 @@ void FrontCholesky<T>::Analyse(int nodes, int node_size, std::span<const NodePai
 /// Blocks lie in the order of the fronts that take them.
 template <class T>
 void FrontCholesky<T>::PlaceBlocks(std::span<const NodePair> pairs) {
-  struct Source {
-    int front, index;  ///< pair, or -1 - node
-  };
   const int nodes = pattern_.nodes();
   const auto position = pattern_.position();
-  const auto front_of = [&](int node) { return pattern_.front_of()[position[node]]; };
-  std::vector<int> next(places_.size() + 1, 0);
-  const auto front_of_pair = [&](const NodePair& pair) {
-    return pattern_.front_of()[std::min(position[pair.first], position[pair.second])];
-  };
-  for (int node = 0; node < nodes; ++node) ++next[front_of(node) + 1];
-  for (const NodePair& pair : pairs) ++next[front_of_pair(pair) + 1];
+  // a node is a pair with itself
+  const int count = nodes + static_cast<int>(pairs.size());
+  const auto pair_at = [&](int k) { return k < nodes ? NodePair(k, k) : pairs[k - nodes]; };
+  std::vector<int> next(places_.size() + 1, 0), front_of(count), order(count);
+  for (int k = 0; k < count; ++k) {
+    const auto [first, second] = pair_at(k);
+    front_of[k] = pattern_.front_of()[std::min(position[first], position[second])];
+    ++next[front_of[k] + 1];
+  }
   for (std::size_t f = 0; f < places_.size(); ++f) {
     next[f + 1] += next[f];
     places_[f].blocks_begin = next[f];
     places_[f].blocks_end = next[f + 1];
   }
+  for (int k = 0; k < count; ++k) order[next[front_of[k]]++] = k;
 
   const std::size_t numbers = static_cast<std::size_t>(pattern_.node_size()) * pattern_.node_size();
-  blocks_.resize(nodes + pairs.size());
-  diagonal_begin_.resize(nodes);
-  upper_begin_.resize(pairs.size());
-  // rows first and columns first of the later and the earlier node in their front
-  const auto place = [&](int front, int row, int column, bool transposed) {
-    const Front& at = pattern_.fronts()[front];
-    const int pivots = Scalars(at.pivots);
-    const auto below = pattern_.rows(at);
-    const std::ptrdiff_t stride = ShapeOf(front).panel_stride();
-    const int in_front =
-        row < at.first + at.pivots
-            ? Scalars(row - at.first)
-            : simd::PaddedRows<T>(pivots) +
-                  Scalars(static_cast<int>(std::ranges::lower_bound(below, row) - below.begin()));
-    const std::size_t from = numbers * next[front];
-    blocks_[next[front]++] = {from, Scalars(column - at.first) * stride + in_front, transposed};
-    return from;
-  };
-  for (int node = 0; node < nodes; ++node) {
-    diagonal_begin_[node] = place(front_of(node), position[node], position[node], false);
-  }
-  for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-    const int first = position[pairs[pair].first], second = position[pairs[pair].second];
-    upper_begin_[pair] = place(front_of_pair(pairs[pair]), std::max(first, second),
-                               std::min(first, second), first < second);
+  blocks_.resize(count);
+  block_of_.resize(count);
+  std::vector<int> row_of(nodes);  // of the panel
+  for (std::size_t f = 0; f < places_.size(); ++f) {
+    const Front& at = pattern_.fronts()[f];
+    const auto shape = ShapeOf(static_cast<int>(f));
+    for (int k = 0; k < at.pivots; ++k) row_of[at.first + k] = Scalars(k);
+    int row = shape.below();
+    for (int node : pattern_.rows(at)) {
+      row_of[node] = row;
+      row += pattern_.node_size();
+    }
+    for (int b = places_[f].blocks_begin; b < places_[f].blocks_end; ++b) {
+      const auto [first, second] = pair_at(order[b]);
+      const int i = position[first], j = position[second];
+      const std::ptrdiff_t column = Scalars(std::min(i, j) - at.first);
+      blocks_[b].to = column * shape.panel_stride() + row_of[std::max(i, j)];
+      blocks_[b].transposed = i < j;
+      block_of_[order[b]] = b;
+    }
   }
   values_.assign(numbers * blocks_.size(), 0);
 }
@@ -239,41 +238,51 @@ void FrontCholesky<T>::AddTopStages(int front) {
   stages_.push_back({Step::kEnd, front, 0, 0, 1});
 }
 
+template <class T>
+std::size_t FrontCholesky<T>::UpdateSize(int front) const {
+  const auto shape = ShapeOf(front);
+  return RoundToLine(static_cast<std::size_t>(shape.update_stride()) * shape.size);
+}
+
+template <class T>
+void FrontCholesky<T>::PlaceUpdate(int front, Planner* planner) {
+  places_[front].update = planner->Take(UpdateSize(front));
+  for (int child : pattern_.children(pattern_.fronts()[front])) {
+    planner->Release(places_[child].update, UpdateSize(child));
+  }
+}
+
+/// For fronts one after the other.
+template <class T>
+std::size_t FrontCholesky<T>::PlaceUpdates() {
+  Planner planner(0);
+  for (int f = 0; f < static_cast<int>(places_.size()); ++f) PlaceUpdate(f, &planner);
+  return planner.end();
+}
+
 /// Subtrees have memory of their own; that of what they leave to the fronts above is shared.
 template <class T>
-void FrontCholesky<T>::PlaceUpdates() {
+std::size_t FrontCholesky<T>::PlaceUpdatesOfSubtrees() {
   const auto fronts = pattern_.fronts();
-  const auto size = [&](int f) {
-    const auto front = ShapeOf(f);
-    return RoundToLine(static_cast<std::size_t>(front.update_stride()) * front.size);
-  };
   const auto is_top = [&](int f) {
     return subtree_of_[f] < 0 || (fronts[f].parent >= 0 && subtree_of_[fronts[f].parent] < 0);
   };
-  const auto place = [&](Planner* planner, int f) {
-    places_[f].update = planner->Take(size(f));
-    for (int child : pattern_.children(fronts[f])) {
-      planner->Release(places_[child].update, size(child));
-    }
-  };
   std::size_t end = 0;
   for (std::size_t s = 0; s + 1 < subtree_begin_.size(); ++s) {
-    Planner planner(end);
-    Planner* const own = &planner;
+    Planner own(end);
     for (int k = subtree_begin_[s]; k < subtree_begin_[s + 1]; ++k) {
-      if (is_top(subtree_fronts_[k])) continue;
-      place(own, subtree_fronts_[k]);
+      if (!is_top(subtree_fronts_[k])) PlaceUpdate(subtree_fronts_[k], &own);
     }
-    end = planner.end();
+    end = own.end();
   }
   Planner top(end);
   for (int f = 0; f < static_cast<int>(fronts.size()); ++f) {
-    if (is_top(f) && subtree_of_[f] >= 0) places_[f].update = top.Take(size(f));
+    if (is_top(f) && subtree_of_[f] >= 0) places_[f].update = top.Take(UpdateSize(f));
   }
   for (int f = 0; f < static_cast<int>(fronts.size()); ++f) {
-    if (subtree_of_[f] < 0) place(&top, f);
+    if (subtree_of_[f] < 0) PlaceUpdate(f, &top);
   }
-  updates_.assign(top.end() + simd::kFrontSlack, 0);
+  return top.end();
 }
 
 template class FrontCholesky<float>;

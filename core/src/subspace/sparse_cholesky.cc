@@ -2,10 +2,13 @@
 #include "subspace/sparse_cholesky.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <utility>
 
-#include "subspace/eigen_cholesky.h"
+#include "simd/target.h"
+#include "subspace/front_cholesky.h"
+#include "subspace/minimum_degree.h"
 
 namespace cairn {
 namespace {
@@ -23,13 +26,15 @@ struct SparseCholesky::Impl {
   std::vector<int> order;         ///< rows of M in the order of elimination
 
   std::vector<char> chosen;  ///< rows of the factor, one flag per row of M
-  std::vector<int> kept;     ///< rows of the pattern, in the order of elimination
+  std::vector<int> kept;     ///< rows of the pattern, nodes of the factor
   bool analysed = false;
-  SparseMatrix matrix;      ///< upper triangle of the pattern's rows, eliminated in this order
-  std::vector<int> source;  ///< for each of its entries, the entry of M
-  EigenCholesky factor;
+  std::vector<int> diagonal;      ///< of each of them, the entry of M
+  std::vector<NodePair> pairs;    ///< of them
+  std::vector<int> off_diagonal;  ///< of each pair, the entry of M
+  // a solve needs room of the factor's
+  mutable FrontCholesky<double> factor{simd::ChooseTarget().target};
+  mutable Eigen::VectorXd gathered;
   int analyses = 0;
-  mutable Eigen::VectorXd ordered;
 
   bool SamePattern(const SparseMatrix& other) const;
   bool Serves(const std::vector<char>& in_set) const;
@@ -58,31 +63,28 @@ void SparseCholesky::Impl::Analyse(const std::vector<char>& in_set) {
     kept.push_back(row);
   }
 
-  // upper triangle, columns in the order of elimination, rows ascending inside a column
   const int size = static_cast<int>(kept.size());
-  std::vector<std::pair<int, int>> column;  // place and entry of M
-  source.clear();
-  std::vector<int> inner, outer = {0};
-  for (int c = 0; c < size; ++c) {
-    column.clear();
-    for (int k = m->outerIndexPtr()[kept[c]]; k < m->outerIndexPtr()[kept[c] + 1]; ++k) {
-      const int r = place[m->innerIndexPtr()[k]];
-      if (r >= 0 && r <= c) column.emplace_back(r, k);
+  diagonal.resize(size);
+  // room for one more: see below
+  const size_t most = static_cast<size_t>(m->nonZeros() - m->cols()) / 2 + 1;
+  pairs.resize(most);
+  off_diagonal.resize(most);
+  size_t count = 0;
+  for (int node = 0; node < size; ++node) {
+    for (int k = m->outerIndexPtr()[kept[node]]; k < m->outerIndexPtr()[kept[node] + 1]; ++k) {
+      const int other = place[m->innerIndexPtr()[k]];
+      if (other == node) diagonal[node] = k;
+      // written in any case: which of the two comes first is hard to predict
+      pairs[count] = {node, other};
+      off_diagonal[count] = k;
+      count += other > node;
     }
-    std::sort(column.begin(), column.end());
-    for (const auto& [r, k] : column) {
-      inner.push_back(r);
-      source.push_back(k);
-    }
-    outer.push_back(static_cast<int>(inner.size()));
   }
-  matrix.resize(size, size);
-  matrix.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
-  std::ranges::copy(outer, matrix.outerIndexPtr());
-  std::ranges::copy(inner, matrix.innerIndexPtr());
-  std::fill_n(matrix.valuePtr(), inner.size(), 1.0);
-
-  factor.Analyse(matrix);
+  pairs.resize(count);
+  off_diagonal.resize(count);
+  std::iota(place.begin(), place.begin() + size, 0);
+  using Factor = FrontCholesky<double>;
+  factor.Analyse(size, 1, pairs, std::span(place).first(size), Factor::Workers::kOne);
   analysed = true;
   ++analyses;
 }
@@ -115,39 +117,38 @@ void SparseCholesky::Choose(const std::vector<char>& in_set) {
   impl_->chosen = in_set;
 }
 
-double SparseCholesky::factor_flops() const { return impl_->factor.flops(); }
-double SparseCholesky::factor_nonzeros() const { return impl_->factor.nonzeros(); }
+double SparseCholesky::factor_flops() const { return impl_->factor.pattern().flops(); }
+double SparseCholesky::factor_nonzeros() const { return impl_->factor.pattern().nonzeros(); }
 int SparseCholesky::TakeAnalyses() { return std::exchange(impl_->analyses, 0); }
 
 bool SparseCholesky::Factorise(const Eigen::VectorXd& shift) {
   // rows that the pattern has but the set has not become rows of the identity
   const double* const values = impl_->m->valuePtr();
-  SparseMatrix& matrix = impl_->matrix;
-  for (int c = 0; c < matrix.cols(); ++c) {
-    const int begin = matrix.outerIndexPtr()[c], end = matrix.outerIndexPtr()[c + 1];
-    const bool in = impl_->chosen[impl_->kept[c]];
-    for (int k = begin; k < end; ++k) {
-      const bool both = in && impl_->chosen[impl_->kept[matrix.innerIndexPtr()[k]]];
-      matrix.valuePtr()[k] = both ? values[impl_->source[k]] : 0;
-    }
-    // the diagonal is last: rows ascend
-    matrix.valuePtr()[end - 1] = in ? matrix.valuePtr()[end - 1] + shift[impl_->kept[c]] : 1;
+  const auto in = [this](int node) { return impl_->chosen[impl_->kept[node]] != 0; };
+  FrontCholesky<double>& factor = impl_->factor;
+  for (int node = 0; node < static_cast<int>(impl_->kept.size()); ++node) {
+    *factor.diagonal(node) =
+        in(node) ? values[impl_->diagonal[node]] + shift[impl_->kept[node]] : 1;
   }
-  return impl_->factor.Factorise(matrix);
+  for (int pair = 0; pair < static_cast<int>(impl_->pairs.size()); ++pair) {
+    const auto [first, second] = impl_->pairs[pair];
+    *factor.upper(pair) = in(first) && in(second) ? values[impl_->off_diagonal[pair]] : 0;
+  }
+  return factor.Factorise();
 }
 
 void SparseCholesky::Solve(Eigen::VectorXd* rhs) const {
   const Eigen::Index size = static_cast<Eigen::Index>(impl_->kept.size());
-  Eigen::VectorXd& ordered = impl_->ordered;
-  ordered.resize(size);
+  Eigen::VectorXd& gathered = impl_->gathered;
+  gathered.resize(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     const int row = impl_->kept[k];
-    ordered[k] = impl_->chosen[row] ? (*rhs)[row] : 0;
+    gathered[k] = impl_->chosen[row] ? (*rhs)[row] : 0;
   }
-  impl_->factor.Solve(&ordered);
+  impl_->factor.Solve({gathered.data(), static_cast<std::size_t>(size)});
   for (Eigen::Index k = 0; k < size; ++k) {
     const int row = impl_->kept[k];
-    if (impl_->chosen[row]) (*rhs)[row] = ordered[k];
+    if (impl_->chosen[row]) (*rhs)[row] = gathered[k];
   }
 }
 

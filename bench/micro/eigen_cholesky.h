@@ -3,17 +3,11 @@
 
 #include <Eigen/SparseCore>
 #include <memory>
-#include <vector>
 
-namespace cairn {
+namespace cairn::micro {
 
-/// Rows of a sparse symmetric matrix in the order in which a minimum degree method eliminates them.
-/// @pre both triangles are stored, and the whole diagonal: without it Eigen takes every column for
-/// a dense one, and does not order at all.
-std::vector<int> MinimumDegreeOrder(const Eigen::SparseMatrix<double>& matrix);
-
-/// Cholesky factor of a sparse symmetric matrix whose rows are in the order of elimination. The
-/// only user of Eigen's sparse factorisations and orderings.
+/// Eigen's simplicial Cholesky factor of a sparse symmetric matrix whose rows are in the order of
+/// elimination.
 class EigenCholesky {
  public:
   EigenCholesky();
@@ -23,9 +17,6 @@ class EigenCholesky {
 
   /// Finds the pattern of the factor. @p upper: upper triangle, compressed, rows ascending.
   void Analyse(const Eigen::SparseMatrix<double>& upper);
-  /// Multiply-adds of one Factorise() and entries of the factor, from the pattern alone.
-  double flops() const;
-  double nonzeros() const;
 
   /// False if a pivot is not positive. @pre the pattern is the one analysed
   [[nodiscard]] bool Factorise(const Eigen::SparseMatrix<double>& upper);
@@ -37,4 +28,4 @@ class EigenCholesky {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::micro
