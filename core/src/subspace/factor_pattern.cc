@@ -95,21 +95,27 @@ std::vector<int> Order(const Graph& graph) {
   return order;
 }
 
-/// For each node the first that it brings fill to. @p order, @p position: of elimination.
-std::vector<int> EliminationTree(const Graph& graph, std::span<const int> order,
-                                 std::span<const int> position) {
+/// By the order of elimination: the first node that each one brings fill to, or -1, and the entries
+/// of its column of the factor, with the diagonal.
+struct Elimination {
+  std::vector<int> parent, counts;
+};
+
+/// A row of the factor reaches all ancestors, up to itself, of the nodes that it has entries for.
+Elimination Eliminate(const Graph& graph, std::span<const int> order,
+                      std::span<const int> position) {
   const int nodes = static_cast<int>(order.size());
-  std::vector<int> parent(nodes, -1), ancestor(nodes, -1);
+  std::vector<int> parent(nodes, -1), counts(nodes, 1), reached(nodes, -1);
   for (int k = 0; k < nodes; ++k) {
     for (int neighbour : graph.of(order[k])) {
-      for (int i = position[neighbour]; i != -1 && i < k;) {
-        const int next = std::exchange(ancestor[i], k);
-        if (next == -1) parent[i] = k;
-        i = next;
+      for (int i = position[neighbour]; i < k && reached[i] != k; i = parent[i]) {
+        if (parent[i] < 0) parent[i] = k;
+        reached[i] = k;
+        ++counts[i];
       }
     }
   }
-  return parent;
+  return {std::move(parent), std::move(counts)};
 }
 
 /// Children before their parent, those of one parent next to each other with all that is below
@@ -135,24 +141,6 @@ std::vector<int> Inverse(std::span<const int> order) {
   std::vector<int> position(order.size());
   for (size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<int>(k);
   return position;
-}
-
-/// Entries of each column of the factor, with the diagonal: a row reaches all ancestors, up to
-/// itself, of the nodes that it has entries for.
-std::vector<int> ColumnCounts(const Graph& graph, std::span<const int> order,
-                              std::span<const int> position, std::span<const int> parent) {
-  const int nodes = static_cast<int>(order.size());
-  std::vector<int> counts(nodes, 1), reached(nodes, -1);
-  for (int k = 0; k < nodes; ++k) {
-    reached[k] = k;
-    for (int neighbour : graph.of(order[k])) {
-      for (int i = position[neighbour]; i < k && reached[i] != k; i = parent[i]) {
-        reached[i] = k;
-        ++counts[i];
-      }
-    }
-  }
-  return counts;
 }
 
 /// n^2 + (n - 1)^2 + ... + 1.
@@ -251,8 +239,11 @@ class FactorPattern::Builder {
  private:
   /// Postorder: the same fill, and groups are close together.
   void OrderNodes(std::span<const int> chosen) {
-    const std::vector<int> parent = EliminationTree(graph_, chosen, Inverse(chosen));
-    Reorder(chosen, parent, Postorder(parent));
+    const Elimination elimination = Eliminate(graph_, chosen, Inverse(chosen));
+    const std::vector<int> order = Postorder(elimination.parent);
+    Reorder(chosen, elimination.parent, order);
+    counts_.resize(order.size());
+    for (size_t k = 0; k < order.size(); ++k) counts_[k] = elimination.counts[order[k]];
   }
 
   void Reorder(std::span<const int> before, std::span<const int> parent,
@@ -268,7 +259,6 @@ class FactorPattern::Builder {
   }
 
   void CountEntries() {
-    counts_ = ColumnCounts(graph_, order_, pattern_.position_, parent_);
     pattern_.flops_ = pattern_.nonzeros_ = 0;
     for (int count : counts_) {
       for (int k = 0; k < pattern_.node_size_; ++k) {
