@@ -1,147 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "subspace/factor_pattern.h"
 
-#include <Eigen/SparseCore>
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
-#include "subspace/minimum_degree.h"
+#include "subspace/elimination.h"
 
 namespace cairn {
 namespace {
-
-/// Neighbours of every node, ascending: what a sparse matrix without numbers is.
-struct Graph {
-  std::vector<int> begin, neighbours;
-
-  std::span<const int> of(int node) const {
-    return std::span(neighbours).subspan(begin[node], begin[node + 1] - begin[node]);
-  }
-};
-
-/// Both directions of every pair.
-Graph MakeGraph(int nodes, std::span<const NodePair> pairs) {
-  Graph graph;
-  graph.begin.assign(nodes + 1, 0);
-  for (const auto& [i, j] : pairs) {
-    ++graph.begin[i + 1];
-    ++graph.begin[j + 1];
-  }
-  std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
-  graph.neighbours.resize(2 * pairs.size());
-  std::vector<int> end(graph.begin.begin(), graph.begin.end() - 1);
-  // pairs ascend: first the smaller neighbours of each node, then the larger ones
-  for (const auto& [i, j] : pairs) graph.neighbours[end[j]++] = i;
-  for (const auto& [i, j] : pairs) graph.neighbours[end[i]++] = j;
-  return graph;
-}
-
-/// The nodes that are connected, ascending; one entry for each part of the graph.
-std::vector<std::vector<int>> Components(const Graph& graph) {
-  const int nodes = static_cast<int>(graph.begin.size()) - 1;
-  std::vector<char> seen(nodes, 0);
-  std::vector<std::vector<int>> components;
-  for (int first = 0; first < nodes; ++first) {
-    if (seen[first] != 0) continue;
-    std::vector<int>& component = components.emplace_back(1, first);
-    seen[first] = 1;
-    for (size_t k = 0; k < component.size(); ++k) {
-      for (int neighbour : graph.of(component[k])) {
-        if (std::exchange(seen[neighbour], 1) == 0) component.push_back(neighbour);
-      }
-    }
-    std::sort(component.begin(), component.end());
-  }
-  return components;
-}
-
-/// Of one component; @p local: room for one entry a node.
-std::vector<int> OrderOf(const Graph& graph, std::span<const int> component,
-                         std::vector<int>* local) {
-  const int nodes = static_cast<int>(component.size());
-  int entries = nodes;
-  for (int k = 0; k < nodes; ++k) {
-    (*local)[component[k]] = k;
-    entries += static_cast<int>(graph.of(component[k]).size());
-  }
-  Eigen::SparseMatrix<double> matrix(nodes, nodes);
-  matrix.resizeNonZeros(entries);
-  int entry = 0;
-  for (int j = 0; j < nodes; ++j) {
-    matrix.outerIndexPtr()[j] = entry;
-    const auto around = graph.of(component[j]);
-    const auto above = std::lower_bound(around.begin(), around.end(), component[j]);
-    for (auto i = around.begin(); i != above; ++i) matrix.innerIndexPtr()[entry++] = (*local)[*i];
-    matrix.innerIndexPtr()[entry++] = j;
-    for (auto i = above; i != around.end(); ++i) matrix.innerIndexPtr()[entry++] = (*local)[*i];
-  }
-  matrix.outerIndexPtr()[nodes] = entry;
-  std::fill_n(matrix.valuePtr(), entry, 1.0);
-  return MinimumDegreeOrder(matrix);
-}
-
-/// Minimum degree, of each component as if it were alone: what is connected to nothing else gets
-/// the same bits whatever is beside it.
-std::vector<int> Order(const Graph& graph) {
-  std::vector<int> order, local(graph.begin.size());
-  for (const std::vector<int>& component : Components(graph)) {
-    if (component.size() <= 2) {
-      order.insert(order.end(), component.begin(), component.end());
-      continue;
-    }
-    for (int k : OrderOf(graph, component, &local)) order.push_back(component[k]);
-  }
-  return order;
-}
-
-/// By the order of elimination: the first node that each one brings fill to, or -1, and the entries
-/// of its column of the factor, with the diagonal.
-struct Elimination {
-  std::vector<int> parent, counts;
-};
-
-/// A row of the factor reaches all ancestors, up to itself, of the nodes that it has entries for.
-Elimination Eliminate(const Graph& graph, std::span<const int> order,
-                      std::span<const int> position) {
-  const int nodes = static_cast<int>(order.size());
-  std::vector<int> parent(nodes, -1), counts(nodes, 1), reached(nodes, -1);
-  for (int k = 0; k < nodes; ++k) {
-    for (int neighbour : graph.of(order[k])) {
-      for (int i = position[neighbour]; i < k && reached[i] != k; i = parent[i]) {
-        if (parent[i] < 0) parent[i] = k;
-        reached[i] = k;
-        ++counts[i];
-      }
-    }
-  }
-  return {std::move(parent), std::move(counts)};
-}
-
-/// Children before their parent, those of one parent next to each other with all that is below
-/// them. @p parent: larger than its children.
-std::vector<int> Postorder(std::span<const int> parent) {
-  const int nodes = static_cast<int>(parent.size());
-  // places are given out from the end: a node's are the last of what its parent has left
-  std::vector<int> below(nodes, 1), end(nodes), order(nodes);
-  for (int i = 0; i < nodes; ++i) {
-    if (parent[i] >= 0) below[parent[i]] += below[i];
-  }
-  int free = nodes;
-  for (int i = nodes - 1; i >= 0; --i) {
-    int& available = parent[i] >= 0 ? end[parent[i]] : free;
-    order[available - 1] = i;
-    end[i] = available - 1;
-    available -= below[i];
-  }
-  return order;
-}
-
-std::vector<int> Inverse(std::span<const int> order) {
-  std::vector<int> position(order.size());
-  for (size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<int>(k);
-  return position;
-}
 
 /// n^2 + (n - 1)^2 + ... + 1.
 double SumOfSquares(double n) { return n * (n + 1) * (2 * n + 1) / 6; }
@@ -188,13 +54,8 @@ std::vector<int> JoinNodes(std::span<const int> parent, std::span<const int> cou
   const int nodes = static_cast<int>(parent.size());
   std::vector<Group> groups(nodes);
   std::vector<int> joined_to(nodes);
-  std::vector<int> first_child(nodes, -1), next_sibling(nodes, -1);
+  const Children children(parent);
   std::vector<std::pair<double, int>> candidates;
-  for (int i = nodes - 1; i >= 0; --i) {
-    if (parent[i] < 0) continue;
-    next_sibling[i] = first_child[parent[i]];
-    first_child[parent[i]] = i;
-  }
   for (int i = 0; i < nodes; ++i) {
     groups[i] = {1, counts[i], 0};
     joined_to[i] = i;
@@ -204,13 +65,13 @@ std::vector<int> JoinNodes(std::span<const int> parent, std::span<const int> cou
       groups[i] = both;
       joined_to[child] = i;
     };
-    const int first = first_child[i];
-    if (first >= 0 && next_sibling[first] < 0) {
+    const int first = children.first[i];
+    if (first >= 0 && children.next[first] < 0) {
       join(first);
       continue;
     }
     candidates.clear();
-    for (int child = first; child >= 0; child = next_sibling[child]) {
+    for (int child = first; child >= 0; child = children.next[child]) {
       candidates.emplace_back(Joined(groups[child], groups[i]).zeros, child);
     }
     std::sort(candidates.begin(), candidates.end());
@@ -229,7 +90,8 @@ class FactorPattern::Builder {
       : pattern_(*pattern), graph_(MakeGraph(nodes, pairs)) {}
 
   void Build(std::span<const int> order) {
-    OrderNodes(order.empty() ? Order(graph_) : std::vector<int>(order.begin(), order.end()));
+    OrderNodes(order.empty() ? MinimumDegreeOrder(graph_)
+                             : std::vector<int>(order.begin(), order.end()));
     CountEntries();
     MakeFronts();
     FindRows();
@@ -240,7 +102,9 @@ class FactorPattern::Builder {
   /// Postorder: the same fill, and groups are close together.
   void OrderNodes(std::span<const int> chosen) {
     const Elimination elimination = Eliminate(graph_, chosen, Inverse(chosen));
-    const std::vector<int> order = Postorder(elimination.parent);
+    Children children(elimination.parent);
+    if (pattern_.node_size_ == 1) SortByMemory(elimination, &children);
+    const std::vector<int> order = Postorder(elimination.parent, std::move(children));
     Reorder(chosen, elimination.parent, order);
     counts_.resize(order.size());
     for (size_t k = 0; k < order.size(); ++k) counts_[k] = elimination.counts[order[k]];

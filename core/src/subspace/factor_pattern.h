@@ -2,13 +2,11 @@
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
-namespace cairn {
+#include "subspace/elimination.h"
 
-/// Two nodes with a block of numbers between them, first < second.
-using NodePair = std::pair<int, int>;
+namespace cairn {
 
 /// Where the numbers of a sparse symmetric matrix and of its Cholesky factor lie: found from the
 /// pattern alone. Rows come in nodes of equal size, six for a body. Nodes are eliminated in a
@@ -30,8 +28,9 @@ class FactorPattern {
     int children_begin, children_end;  ///< in children()
   };
 
-  /// @p pairs: ascending, each once. Those that turn out to hold zeros do no harm. @p order: nodes
-  /// as they are to be eliminated, up to changes that bring no fill; empty: minimum degree.
+  /// @p pairs: each once. Those that turn out to hold zeros do no harm. @p order: nodes as they are
+  /// to be eliminated, up to changes that bring no fill; empty: minimum degree, for which the pairs
+  /// have to ascend.
   void Analyse(int nodes, int node_size, std::span<const NodePair> pairs,
                std::span<const int> order = {});
 
