@@ -12,6 +12,16 @@ constexpr double kSubtreeShare = 1.0 / 24;
 /// Pivots of a stage above the subtrees.
 constexpr int kPivotsOfStage = 2 * simd::kFrontStep;
 
+/// Memory of the right size, without that of before and its copy beside it.
+template <class Numbers>
+void MakeRoom(std::size_t size, Numbers* numbers) {
+  if (numbers->capacity() < size) {
+    *numbers = Numbers();
+    numbers->reserve(size);
+  }
+  numbers->resize(size);
+}
+
 std::size_t RoundToLine(std::size_t numbers) { return (numbers + 15) / 16 * 16; }
 
 }  // namespace
@@ -137,7 +147,7 @@ void FrontCholesky<T>::PlacePanels() {
     const auto front = ShapeOf(f);
     end += RoundToLine(static_cast<std::size_t>(front.panel_stride()) * front.pivots);
   }
-  panels_.resize(end + simd::kFrontSlack);
+  MakeRoom(end + simd::kFrontSlack, &panels_);
 }
 
 template <class T>
