@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <vector>
 
 #include "cairn/bullet/group_rows.h"
 #include "cairn/solver.h"
@@ -61,6 +62,7 @@ struct ConstraintSolver::Impl {
   Solver solver;
   GroupRows rows;
   FastGroup fast;
+  std::vector<double> shown_impulses;
   Report report;
   bool fell_back = false, solved_fast = false;
 
@@ -106,7 +108,9 @@ ContactProblem ConstraintSolver::problem() const {
 }
 
 std::span<const double> ConstraintSolver::impulses() const {
-  return impl_->solved_fast ? impl_->fast.impulses() : impl_->rows.impulses();
+  if (!impl_->solved_fast) return impl_->rows.impulses();
+  impl_->shown_impulses = impl_->fast.AllImpulses();
+  return impl_->shown_impulses;
 }
 
 void ConstraintSolver::prepareSolve(int, int) {

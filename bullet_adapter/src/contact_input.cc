@@ -39,24 +39,6 @@ Sides ReadSides(const btPersistentManifold& manifold, const ManifoldInput& numbe
   return sides;
 }
 
-/// Softness of the normal: of the world, of the point, or from its stiffness and damping.
-void ReadSoftness(const btManifoldPoint& point, const btContactSolverInfo& info,
-                  ContactInput* input) {
-  btScalar cfm = info.m_globalCfm, erp = info.m_erp2;
-  const int flags = point.m_contactPointFlags;
-  if ((flags & (BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_HAS_CONTACT_ERP)) != 0) {
-    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) cfm = point.m_contactCFM;
-    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0) erp = point.m_contactERP;
-  } else if ((flags & BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING) != 0) {
-    const btScalar spring = info.m_timeStep * point.m_combinedContactStiffness1;
-    const btScalar sum = btMax(spring + point.m_combinedContactDamping1, SIMD_EPSILON);
-    cfm = 1 / sum;
-    erp = spring / sum;
-  }
-  input->compliance = cfm / info.m_timeStep;
-  input->erp = erp;
-}
-
 void ReadFriction(const Sides& sides, const btContactSolverInfo& info, ContactInput* input) {
   btManifoldPoint& point = *input->point;
   const btVector3 velocity = sides.velocity_a + sides.spin_a.cross(input->arm_a) -
@@ -128,12 +110,29 @@ void ReadPoint(const Sides& sides, const btContactSolverInfo& info, ContactInput
   input->distance = point.getDistance() + info.m_linearSlop;
   input->restitution = point.m_combinedRestitution;
   input->normal_impulse = point.m_appliedImpulse;
-  ReadSoftness(point, info, input);
+  const Softness softness = SoftnessOf(point, info);
+  input->erp = softness.erp;
+  input->compliance = softness.compliance;
   ReadFriction(sides, info, input);
   ReadTwists(sides.manifold, input);
 }
 
 }  // namespace
+
+Softness SoftnessOf(const btManifoldPoint& point, const btContactSolverInfo& info) {
+  btScalar cfm = info.m_globalCfm, erp = info.m_erp2;
+  const int flags = point.m_contactPointFlags;
+  if ((flags & (BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_HAS_CONTACT_ERP)) != 0) {
+    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) cfm = point.m_contactCFM;
+    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0) erp = point.m_contactERP;
+  } else if ((flags & BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING) != 0) {
+    const btScalar spring = info.m_timeStep * point.m_combinedContactStiffness1;
+    const btScalar sum = btMax(spring + point.m_combinedContactDamping1, SIMD_EPSILON);
+    cfm = 1 / sum;
+    erp = spring / sum;
+  }
+  return {.erp = erp, .compliance = cfm / info.m_timeStep};
+}
 
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
                   const ContactStart& start, BodyTable* bodies, ManifoldInput* result) {

@@ -42,6 +42,13 @@ struct ManifoldInput {
   ContactInput inputs[MANIFOLD_CACHE_SIZE];
 };
 
+/// How a normal gives way: share of the penetration that a step takes away [1], compliance [1/kg].
+struct Softness {
+  btScalar erp, compliance;
+};
+/// Of the world, of the point, or from its stiffness and damping.
+Softness SoftnessOf(const btManifoldPoint& point, const btContactSolverInfo& info);
+
 /// What contacts start from: factors of the impulses of the substep before, in [0, 1].
 struct ContactStart {
   btScalar normal = 0, friction = 0;

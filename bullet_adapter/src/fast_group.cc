@@ -17,22 +17,67 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0));
   joint_builder_.Append(group.joints, info, limits);
 
-  twist_memory_.Begin();
   const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),
                            &twist_memory_};
+  ReadContacts(group.manifolds, info, limits, options.contacts, start);
+  velocities_.assign(bodies_.size(), Velocity{});
+}
+
+void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
+                             const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
+                             const ContactStart& start) {
+  twist_memory_.Begin();
+  contacts_.Begin(info, limits, start);
   const ContactLaw law(info, limits);
   ContactRowBuilder builder(law, bodies_, &group_, &pushes_);
   ManifoldInput input;
-  for (btPersistentManifold* manifold : group.manifolds) {
+  for (btPersistentManifold* manifold : manifolds) {
+    if (form == ContactForm::kManifolds && contacts_.Append(manifold, &bodies_)) continue;
     ReadManifold(manifold, info, start, &bodies_, &input);
     builder.Append(input);
   }
-  velocities_.assign(bodies_.size(), Velocity{});
+  FindMotions();
+}
+
+void FastGroup::FindMotions() {
+  motions_.resize(contacts_.manifolds().empty() ? 0 : bodies_.size());
+  const auto put = [](const btVector3& from, float* to) {
+    for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+  };
+  for (size_t i = 0; i < motions_.size(); ++i) {
+    const Motion& motion = bodies_.motion(static_cast<int>(i));
+    put(motion.velocity + motion.external_velocity, motions_[i].free_velocity);
+    put(motion.spin + motion.external_spin, motions_[i].free_spin);
+    put(motion.velocity, motions_[i].start_velocity);
+    put(motion.spin, motions_[i].start_spin);
+  }
+}
+
+ContactProblem FastGroup::problem() const {
+  return {.bodies = bodies_.bodies(),
+          .rows = group_.rows,
+          .manifolds = contacts_.manifolds(),
+          .points = contacts_.points(),
+          .contact_law = contacts_.law(),
+          .motions = motions_};
+}
+
+std::vector<double> FastGroup::AllImpulses() const {
+  std::vector<double> all = group_.impulses;
+  for (const Manifold& manifold : contacts_.manifolds()) {
+    const auto points = contacts_.impulses().subspan(manifold.first_point, manifold.points);
+    for (const ContactImpulse& point : points) all.push_back(point.normal);
+    for (const ContactImpulse& point : points) {
+      all.insert(all.end(), point.tangential, point.tangential + manifold.tangents);
+    }
+  }
+  return all;
 }
 
 void FastGroup::Write(const btContactSolverInfo& info) {
   pushes_.Solve(info, bodies_.size());
   WriteContacts(group_, info);
+  contacts_.Write();
   WriteJoints(group_, info);
   WriteBodies(bodies_, velocities_, pushes_, info);
   joint_memory_.Keep(group_);

@@ -11,6 +11,7 @@
 #include "body_table.h"
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
+#include "contact_points.h"
 #include "contact_rows.h"
 #include "group_problem.h"
 #include "joint_rows.h"
@@ -39,15 +40,18 @@ class FastGroup {
   void Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
             const Options& options);
 
-  ContactProblem problem() const { return {.bodies = bodies_.bodies(), .rows = group_.rows}; }
-  std::span<double> impulses() { return group_.impulses; }
-  std::span<const double> impulses() const { return group_.impulses; }
+  ContactProblem problem() const;
+  Impulses impulses() { return {.rows = group_.impulses, .points = contacts_.impulses()}; }
+  /// One number per row, those of manifolds last, as Measure() wants them.
+  std::vector<double> AllImpulses() const;
   std::span<Velocity> velocities() { return velocities_; }
   /// The most sweeps that a joint asks for.
   int most_sweeps() const { return joint_builder_.most_sweeps(); }
 
   /// Whose rows they are.
   const GroupProblem& group() const { return group_; }
+  /// Whose manifolds.
+  const ContactPoints& contacts() const { return contacts_; }
 
   /// Pushes bodies out of deep penetration, and writes everything to Bullet's objects.
   void Write(const btContactSolverInfo& info);
@@ -56,8 +60,15 @@ class FastGroup {
   void Forget();
 
  private:
+  void ReadContacts(std::span<btPersistentManifold* const> manifolds,
+                    const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
+                    const ContactStart& start);
+  void FindMotions();
+
   BodyTable bodies_;
   GroupProblem group_;
+  ContactPoints contacts_;
+  std::vector<ContactMotion> motions_;  ///< one per body, if contacts want them
   SplitImpulse pushes_;
   JointMemory joint_memory_;
   TwistMemory twist_memory_;

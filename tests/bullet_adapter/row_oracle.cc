@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "bullet_adapter/src/conversions.h"
+#include "core/src/contact_expansion.h"
 #include "measure/instrumented_solver.h"
 
 namespace cairn::test {
@@ -161,10 +163,85 @@ bool SameBits(const Row& a, const Row& b) {
 }
 
 void ReadOurs(const Substep& substep, const Substep::Group& group, const ChangeState& change,
-              const btContactSolverInfo& info, bullet::FastGroup* ours) {
+              const btContactSolverInfo& info, bullet::ContactForm form, bullet::FastGroup* ours) {
   substep.Restore();
   change(substep);
-  ours->Read({group.bodies, group.manifolds, group.joints}, info, bullet::SweepLimits::kBullet, {});
+  ours->Read({group.bodies, group.manifolds, group.joints}, info, bullet::SweepLimits::kBullet,
+             {.contacts = form});
+}
+
+/// Sums of some ten products of numbers of up to ten, in floats.
+constexpr double kFloats = 5e-5;
+/// Directions of slower slides are decided by rounding [m/s].
+constexpr double kSlides = 0.05;
+
+void ExpectClose(const Row& actual, const Row& expected, double sign) {
+  const auto close = [sign](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    EXPECT_LE((a - sign * b).norm(), kFloats * (1 + b.norm()));
+  };
+  // the half of what has no number is left out of rows
+  if (expected.body_a != kWorld) {
+    close(actual.linear_a, expected.linear_a);
+    close(actual.angular_a, expected.angular_a);
+  }
+  if (expected.body_b != kWorld) {
+    close(actual.linear_b, expected.linear_b);
+    close(actual.angular_b, expected.angular_b);
+  }
+  EXPECT_NEAR(actual.target, sign * expected.target, kFloats * (1 + std::abs(expected.target)));
+}
+
+/// One point of a manifold, its rows as they were written out, and those that it should have.
+class PointComparison {
+ public:
+  PointComparison(const Row* normal, const Row* frictions, const bullet::FastGroup& rows,
+                  const bullet::PointRows& point)
+      : normal_(*normal), frictions_(frictions), rows_(rows.problem().rows), point_(point) {}
+
+  void Compare() const {
+    const Row& normal = rows_[point_.normal_row];
+    ExpectClose(normal_, normal, 1);
+    EXPECT_NEAR(normal_.compliance, normal.compliance, 1e-6 * normal.compliance);
+    EXPECT_EQ(normal_.max_sweeps, normal.max_sweeps);
+    for (int k = 0; k < point_.frictions; ++k) {
+      const Row &actual = frictions_[k], &expected = rows_[point_.friction_row + k];
+      EXPECT_FLOAT_EQ(static_cast<float>(actual.friction), static_cast<float>(expected.friction));
+      EXPECT_NEAR(actual.linear_a.norm(), 1, kFloats);
+      EXPECT_NEAR(actual.linear_a.dot(normal_.linear_a), 0, kFloats);
+      if (std::abs(rows_[point_.friction_row].target) < kSlides) continue;
+      const double along =
+          actual.linear_a.dot(expected.linear_a) + actual.linear_b.dot(expected.linear_b);
+      ExpectClose(actual, expected, along < 0 ? -1 : 1);
+    }
+  }
+
+ private:
+  const Row& normal_;
+  const Row* frictions_;
+  std::span<const Row> rows_;
+  const bullet::PointRows& point_;
+};
+
+void CompareManifolds(const bullet::FastGroup& rows, bullet::FastGroup* points, RowCounts* counts) {
+  std::map<const btManifoldPoint*, const bullet::PointRows*> rows_of;
+  for (const bullet::PointRows& point : rows.group().points) rows_of[point.point] = &point;
+  const ContactProblem problem = points->problem();
+  const ContactExpansion expansion(problem, points->impulses());
+  const Row* next = expansion.problem().rows.data() + problem.rows.size();
+  for (const Manifold& manifold : problem.manifolds) {
+    for (int p = 0; p < manifold.points; ++p) {
+      const auto of = rows_of.find(points->contacts().sources()[manifold.first_point + p]);
+      ASSERT_NE(of, rows_of.end());
+      ASSERT_EQ(of->second->frictions, manifold.tangents);
+      const Row* const frictions = next + manifold.points + p * manifold.tangents;
+      PointComparison(next + p, frictions, rows, *of->second).Compare();
+      rows_of.erase(of);
+      ++counts->points;
+    }
+    next += manifold.rows();
+  }
+  // the others are rows
+  EXPECT_EQ(rows_of.size(), points->group().points.size());
 }
 
 }  // namespace
@@ -175,7 +252,8 @@ RowCounts ExpectBulletsRows(const Substep& substep, const btContactSolverInfo& i
   btContactSolverInfo own_info = info;
   for (Substep::Group group : substep.groups()) {
     bullet::FastGroup ours, again;
-    ReadOurs(substep, group, change, info, &ours);
+    constexpr auto kRows = bullet::ContactForm::kRows;
+    ReadOurs(substep, group, change, info, kRows, &ours);
     substep.Restore();
     change(substep);
     Oracle oracle;
@@ -184,9 +262,13 @@ RowCounts ExpectBulletsRows(const Substep& substep, const btContactSolverInfo& i
     CompareContacts(oracle, ours, &counts);
     oracle.Finish(&group, &own_info);
 
-    ReadOurs(substep, group, change, info, &again);
+    ReadOurs(substep, group, change, info, kRows, &again);
     const auto first = ours.problem().rows, second = again.problem().rows;
     EXPECT_TRUE(std::ranges::equal(first, second, SameBits));
+
+    bullet::FastGroup points;
+    ReadOurs(substep, group, change, info, bullet::ContactForm::kManifolds, &points);
+    CompareManifolds(ours, &points, &counts);
   }
   substep.Restore();
   return counts;
@@ -207,6 +289,7 @@ RowCounts ExpectBulletsRowsInWorld(const std::function<void(bench::World*)>& bui
         counts.normals += more.normals;
         counts.frictions += more.frictions;
         counts.twists += more.twists;
+        counts.points += more.points;
       });
     }
     world.Step();

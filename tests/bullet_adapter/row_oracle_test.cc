@@ -26,6 +26,9 @@ TEST_P(RowsOfScene, AreBullets) {
   const RowCounts counts =
       ExpectBulletsRowsInWorld([&](World* world) { scene->Build(world, {}); }, AsItIs, 60, 6);
   EXPECT_GT(counts.joints + counts.normals, 0);
+  if (counts.normals > 0) {
+    EXPECT_GT(counts.points, counts.normals / 2);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, RowsOfScene, testing::ValuesIn(SceneNames()), SceneTestName());

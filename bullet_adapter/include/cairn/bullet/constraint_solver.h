@@ -57,8 +57,8 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// of a type that Bullet does not ship, or Solver::Solve() refused it or broke down.
   bool fell_back() const;
   /// The problem that report() is about, and the impulses that solve it, one per row: joints first,
-  /// in the order in which Bullet hands them over. Valid until the next substep; empty before the
-  /// first.
+  /// in the order in which Bullet hands them over, then contacts, those in manifolds last. Valid
+  /// until the next substep, impulses until they are asked for again; empty before the first.
   ContactProblem problem() const;
   std::span<const double> impulses() const;
 

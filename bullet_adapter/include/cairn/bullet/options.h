@@ -15,9 +15,18 @@ enum class Mode {
   kReference,
 };
 
+/// How contacts go to the solver in Mode::kFast.
+enum class ContactForm {
+  /// As manifolds, several times faster; those that have more than normals and plain friction (see
+  /// docs/bullet.md) as rows.
+  kManifolds,
+  kRows,  ///< All as rows.
+};
+
 /// How the adapter works; how hard the solver tries is in cairn::Settings.
 struct Options {
   Mode mode = Mode::kFast;
+  ContactForm contacts = ContactForm::kManifolds;
   /// Whether friction starts from the lateral impulses in the contact points; Mode::kFast, and only
   /// with SOLVER_USE_WARMSTARTING in the solver mode of the world, scaled by m_warmstartingFactor.
   bool warm_start_friction = true;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "contact_points.h"
+
+#include "conversions.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+void Put(const btVector3& from, float* to) {
+  to[0] = static_cast<float>(from.x());
+  to[1] = static_cast<float>(from.y());
+  to[2] = static_cast<float>(from.z());
+}
+
+bool HasAnisotropicFriction(const btCollisionObject& object) {
+  return object.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION);
+}
+
+}  // namespace
+
+void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
+                          const ContactStart& start) {
+  manifolds_.clear();
+  points_.clear();
+  impulses_.clear();
+  sources_.clear();
+  info_ = info;
+  start_ = start;
+  law_ = {.bounce_speed = static_cast<float>(info.m_restitutionVelocityThreshold),
+          .spin_before_torques = true};
+  like_ = {.body_a = kWorld, .body_b = kWorld};
+  like_.tangents = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;
+  if (limits == SweepLimits::kBullet) like_.max_sweeps = info.m_numIterations;
+  const bool by_velocity =
+      (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) == 0;
+  takes_any_ = by_velocity && Relaxation(info.m_sor) == 1 && info.m_sor == 1;
+}
+
+bool ContactPoints::IsPlain(const btPersistentManifold& manifold) const {
+  return !HasAnisotropicFriction(*manifold.getBody0()) &&
+         !HasAnisotropicFriction(*manifold.getBody1());
+}
+
+bool ContactPoints::IsPlain(const btManifoldPoint& point) const {
+  const bool by_user =
+      (info_.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0 &&
+      (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) != 0;
+  const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
+  const btScalar distance = point.getDistance() + info_.m_linearSlop;
+  const bool pushed =
+      info_.m_splitImpulse != 0 && distance <= info_.m_splitImpulsePenetrationThreshold;
+  return !by_user && !anchored && !pushed && !(point.m_combinedRollingFriction > 0);
+}
+
+bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies) {
+  if (!takes_any_ || !IsPlain(*manifold)) return false;
+  const int count = manifold->getNumContacts();
+  for (int i = 0; i < count; ++i) {
+    if (!IsPlain(manifold->getContactPoint(i))) return false;
+  }
+
+  Manifold next = like_;
+  next.body_a = bodies->Number(*manifold->getBody0());
+  next.body_b = bodies->Number(*manifold->getBody1());
+  if (!bodies->reacts(next.body_a) && !bodies->reacts(next.body_b)) return true;
+  next.first_point = static_cast<int>(points_.size());
+  const btVector3& origin_a = manifold->getBody0()->getWorldTransform().getOrigin();
+  const btVector3& origin_b = manifold->getBody1()->getWorldTransform().getOrigin();
+  const btScalar threshold = manifold->getContactProcessingThreshold();
+  for (int i = 0; i < count; ++i) {
+    btManifoldPoint& point = manifold->getContactPoint(i);
+    if (point.getDistance() <= threshold) AppendPoint(origin_a, origin_b, &point);
+  }
+  next.points = static_cast<std::int8_t>(static_cast<int>(points_.size()) - next.first_point);
+  for (int p = next.first_point; p < static_cast<int>(points_.size()); ++p) {
+    next.soft = next.soft || points_[p].compliance != 0;
+  }
+  if (next.points > 0) manifolds_.push_back(next);
+  return true;
+}
+
+float ContactPoints::Bias(btScalar distance, btScalar erp) const {
+  return static_cast<float>(-distance * (distance > 0 ? btScalar(1) : erp) / info_.m_timeStep);
+}
+
+void ContactPoints::AppendPoint(const btVector3& origin_a, const btVector3& origin_b,
+                                btManifoldPoint* source) {
+  const Softness softness = SoftnessOf(*source, info_);
+  ContactPoint& point = points_.emplace_back();
+  Put(source->getPositionWorldOnA() - origin_a, point.arm_a);
+  Put(source->getPositionWorldOnB() - origin_b, point.arm_b);
+  Put(source->m_normalWorldOnB, point.normal);
+  point.bias = Bias(source->getDistance() + info_.m_linearSlop, softness.erp);
+  // Bullet never bounces bodies into each other
+  point.restitution = static_cast<float>(btMax(btScalar(0), source->m_combinedRestitution));
+  point.friction = static_cast<float>(btMax(btScalar(0), source->m_combinedFriction));
+  point.compliance = static_cast<float>(softness.compliance);
+
+  impulses_.push_back(
+      {.normal = static_cast<float>(source->m_appliedImpulse * start_.normal),
+       .tangential = {static_cast<float>(source->m_appliedImpulseLateral1 * start_.friction),
+                      static_cast<float>(source->m_appliedImpulseLateral2 * start_.friction)},
+       .heading = static_cast<float>(source->m_prevRHS)});
+  sources_.push_back(source);
+}
+
+void ContactPoints::Write() const {
+  const bool warm_starts = (info_.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
+  const bool both = like_.tangents > 1;
+  for (size_t i = 0; i < sources_.size(); ++i) {
+    btManifoldPoint& point = *sources_[i];
+    const ContactImpulse& impulse = impulses_[i];
+    const float* const t1 = impulse.direction;
+    point.m_lateralFrictionDir1.setValue(t1[0], t1[1], t1[2]);
+    if (both) {
+      point.m_lateralFrictionDir2 = point.m_lateralFrictionDir1.cross(point.m_normalWorldOnB);
+    }
+    if (!warm_starts) continue;
+    point.m_appliedImpulse = impulse.normal;
+    point.m_appliedImpulseLateral1 = impulse.tangential[0];
+    if (both) point.m_appliedImpulseLateral2 = impulse.tangential[1];
+    point.m_prevRHS = impulse.heading;
+  }
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
+#include <span>
+#include <vector>
+
+#include "body_table.h"
+#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/precision.h"
+#include "cairn/contact_problem.h"
+#include "contact_input.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// The contacts of a group that the core takes as manifolds, with nothing written out as rows: all
+/// that are neither anisotropic, anchored, rolling or pushed apart, and whose directions of
+/// friction no user has set. The formulas are those of ContactRowBuilder, in the kernels of the
+/// core.
+class ContactPoints {
+ public:
+  /// Begins a group.
+  void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactStart& start);
+  /// Appends a manifold. False if it has to be written out as rows: nothing was done.
+  bool Append(btPersistentManifold* manifold, BodyTable* bodies);
+
+  std::span<const Manifold> manifolds() const { return manifolds_; }
+  std::span<const ContactPoint> points() const { return points_; }
+  /// One per point: the start, and after solving the result.
+  std::span<ContactImpulse> impulses() { return impulses_; }
+  std::span<const ContactImpulse> impulses() const { return impulses_; }
+  cairn::ContactLaw law() const { return law_; }
+  /// Bullet's, one per point.
+  std::span<btManifoldPoint* const> sources() const { return sources_; }
+
+  /// Writes impulses and directions to the points of Bullet.
+  void Write() const;
+
+ private:
+  bool IsPlain(const btPersistentManifold& manifold) const;
+  bool IsPlain(const btManifoldPoint& point) const;
+  void AppendPoint(const btVector3& origin_a, const btVector3& origin_b, btManifoldPoint* source);
+  float Bias(btScalar distance, btScalar erp) const;
+
+  btContactSolverInfo info_;
+  bool takes_any_ = false;  ///< the settings of the group allow it
+  ContactStart start_;
+  cairn::ContactLaw law_;
+  Manifold like_;  ///< what all manifolds have in common
+  std::vector<Manifold> manifolds_;
+  std::vector<ContactPoint> points_;
+  std::vector<ContactImpulse> impulses_;
+  std::vector<btManifoldPoint*> sources_;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet
