@@ -218,9 +218,9 @@ class RowsWith : public testing::TestWithParam<Feature> {};
 
 TEST_P(RowsWith, AreBullets) {
   const RowCounts counts = ExpectBulletsRowsInWorld(GetParam().build, GetParam().change, 120, 3);
-  EXPECT_GT(counts.normals, 100);
-  EXPECT_GT(counts.frictions, 100);
-  EXPECT_GT(counts.twists, 50);
+  EXPECT_GT(counts.normals, 50);
+  EXPECT_GT(counts.frictions, 50);
+  EXPECT_GT(counts.twists, 30);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, RowsWith, testing::ValuesIn(Features()), JointTestName());
