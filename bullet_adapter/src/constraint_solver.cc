@@ -168,6 +168,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   FastGroup& fast = impl_->fast;
   fast.Read(group, info, LimitsOf(impl_->settings), impl_->options);
   if (fast.problem().bodies.empty()) {
+    fast.Forget();
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
     impl_->solved_fast = true;
@@ -184,8 +185,8 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   fast.Write(info);
   impl_->write_time = Clock::now() - solved;
   impl_->finish_time = {};
-  Analyse(group,
-          group.bodies.empty() ? -2 : 0);  // 0 is the number that Bullet gives the first body
+  // 0 is the number that Bullet gives the first body
+  Analyse(group, group.bodies.empty() ? -2 : 0);
   return true;
 }
 

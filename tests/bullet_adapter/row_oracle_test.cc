@@ -52,14 +52,14 @@ TEST_P(RowsOfJoint, AreBulletsWithSoftnessAndDampingOfTheWorld) {
       AsItIs, 60, 1);
 }
 
-struct JointTestName {
+struct NameOfCase {
   template <class Info>
   std::string operator()(const Info& info) const {
     return std::string(info.param.name);
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Every, RowsOfJoint, testing::ValuesIn(JointKinds()), JointTestName());
+INSTANTIATE_TEST_SUITE_P(Every, RowsOfJoint, testing::ValuesIn(JointKinds()), NameOfCase());
 
 /// Bodies of several shapes that fall, slide, roll and bounce on ground, walls and each other.
 void BuildTumbling(World* world) {
@@ -150,11 +150,11 @@ Feature FlaggedPoints(std::string_view name, int flags) {
   });
 }
 
-const std::vector<Feature>& Features() {
+std::vector<Feature> ModeFeatures() {
   constexpr int kTwo = SOLVER_USE_2_FRICTION_DIRECTIONS, kWarm = SOLVER_USE_WARMSTARTING;
   constexpr int kCached = SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
   constexpr int kFixed = SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
-  static const std::vector<Feature> features = {
+  return {
       Mode("DefaultMode", 0, 0),
       Mode("OneDirection", 0, kTwo),
       Mode("NoWarmStart", 0, kWarm),
@@ -163,6 +163,11 @@ const std::vector<Feature>& Features() {
       Mode("CachedDirections", kCached | kFixed, 0),
       Mode("EveryOtherFlag",
            SOLVER_RANDMIZE_ORDER | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS, SOLVER_SIMD),
+  };
+}
+
+std::vector<Feature> InfoFeatures() {
+  return {
       Info("NoSplitImpulse", [](btContactSolverInfo* info) { info->m_splitImpulse = 0; }),
       Info("AlwaysSplitImpulse",
            [](btContactSolverInfo* info) { info->m_splitImpulsePenetrationThreshold = 0; }),
@@ -174,6 +179,11 @@ const std::vector<Feature>& Features() {
            [](btContactSolverInfo* info) { info->m_warmstartingFactor = btScalar(0.5); }),
       Info("RestitutionThreshold",
            [](btContactSolverInfo* info) { info->m_restitutionVelocityThreshold = 2; }),
+  };
+}
+
+std::vector<Feature> BodyFeatures() {
+  return {
       EachBody("AnisotropicFriction",
                [](btRigidBody* body) {
                  body->setAnisotropicFriction({1, btScalar(0.2), btScalar(0.5)},
@@ -197,6 +207,12 @@ const std::vector<Feature>& Features() {
                }),
       EachBody("ThickProcessingThreshold",
                [](btRigidBody* body) { body->setContactProcessingThreshold(btScalar(-0.001)); }),
+  };
+}
+
+std::vector<Feature> PointFeatures() {
+  constexpr int kCached = SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
+  return {
       FlaggedPoints("ContactCfm", BT_CONTACT_FLAG_HAS_CONTACT_CFM),
       FlaggedPoints("ContactErp", BT_CONTACT_FLAG_HAS_CONTACT_ERP),
       FlaggedPoints("ContactStiffness", BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING),
@@ -211,7 +227,6 @@ const std::vector<Feature>& Features() {
                   point->m_frictionCFM = btScalar(0.01);
                 }),
   };
-  return features;
 }
 
 class RowsWith : public testing::TestWithParam<Feature> {};
@@ -223,7 +238,10 @@ TEST_P(RowsWith, AreBullets) {
   EXPECT_GT(counts.twists, 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, RowsWith, testing::ValuesIn(Features()), JointTestName());
+INSTANTIATE_TEST_SUITE_P(Mode, RowsWith, testing::ValuesIn(ModeFeatures()), NameOfCase());
+INSTANTIATE_TEST_SUITE_P(Info, RowsWith, testing::ValuesIn(InfoFeatures()), NameOfCase());
+INSTANTIATE_TEST_SUITE_P(Body, RowsWith, testing::ValuesIn(BodyFeatures()), NameOfCase());
+INSTANTIATE_TEST_SUITE_P(Point, RowsWith, testing::ValuesIn(PointFeatures()), NameOfCase());
 
 TEST(Rows, AreBulletsOnAMovingTable) {
   const RowCounts counts = ExpectBulletsRowsInWorld(
