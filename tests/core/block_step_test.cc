@@ -185,5 +185,23 @@ TEST(BlockSystem, IsAnalysedAgainOnlyWhereMuchHasChanged) {
   EXPECT_TRUE(system.analysed()) << "a pair that it has no place for";
 }
 
+TEST(BlockSystem, KeepsAPlaceForPairsThatComeAndGo) {
+  const Eigen::Vector3d point(0, 0, 0);
+  const auto with_pair = [&](int a, int b) {
+    Scene scene = test::Wall(8, 7);
+    test::AddContact(&scene, test::PointRow(scene, a, b, point, Eigen::Vector3d::UnitZ()), point,
+                     0.5);
+    return scene;
+  };
+  const Scene scenes[] = {with_pair(0, 55), with_pair(7, 40)};
+  Plan plan;
+  BlockSystem<float> system(simd::BestTarget());
+  for (int frame = 0; frame < 6; ++frame) {
+    test::MakePlan(scenes[frame % 2], 1, &plan);
+    system.Prepare(plan, frame, 0);
+    EXPECT_EQ(system.analysed(), frame < 2) << frame;
+  }
+}
+
 }  // namespace
 }  // namespace cairn

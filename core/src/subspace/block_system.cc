@@ -2,6 +2,7 @@
 #include "subspace/block_system.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace cairn {
 namespace {
@@ -21,12 +22,14 @@ BlockSystem<T>::BlockSystem(simd::Target target)
 template <class T>
 void BlockSystem<T>::Prepare(const Plan& plan, int plan_number, int index) {
   analysed_ = false;
-  if (plan_number == plan_number_ && index == group_) return;
+  if (IsPreparedFor(plan_number, index)) return;
   plan_number_ = plan_number;
   group_ = index;
   const Group& group = plan.groups()[index];
   FindBodies(plan, group);
-  if (bodies_now_ == bodies_ && FindLanes(plan, group)) return;
+  const bool same = bodies_now_ == bodies_;
+  if (same && FindLanes(plan, group)) return;
+  if (!same) pairs_.clear();
   bodies_ = bodies_now_;
   FindPairs(plan, group);
   cholesky_.Analyse(nodes(), 6, pairs_);
@@ -57,6 +60,7 @@ NodePair BlockSystem<T>::PairOf(const simd::PairBlock& block, int lane) const {
 
 template <class T>
 void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
+  known_pairs_.swap(pairs_);
   pairs_.clear();
   for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
     if (block.form == simd::PairForm::kSingle) continue;
@@ -64,6 +68,13 @@ void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
   }
   std::sort(pairs_.begin(), pairs_.end());
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+
+  // what comes and goes keeps its place
+  const double now = static_cast<double>(pairs_.size());
+  all_pairs_.clear();
+  std::set_union(pairs_.begin(), pairs_.end(), known_pairs_.begin(), known_pairs_.end(),
+                 std::back_inserter(all_pairs_));
+  if (kLeastShareOfPairs * static_cast<double>(all_pairs_.size()) <= now) pairs_.swap(all_pairs_);
 }
 
 template <class T>

@@ -23,8 +23,13 @@ class BlockSystem {
   explicit BlockSystem(simd::Target target);
 
   /// Finds the bodies of the group and which of them touch, and analyses that graph unless the one
-  /// of an earlier call holds it and little more. @p plan_number: changes with the plan.
+  /// of an earlier call holds it and little more. Pairs of that one stay in it if they are few. @p
+  /// plan_number: changes with the plan.
   void Prepare(const Plan& plan, int plan_number, int group);
+  /// Prepare() has nothing to do.
+  bool IsPreparedFor(int plan_number, int group) const {
+    return plan_number == plan_number_ && group == group_;
+  }
   /// The last Prepare() had to analyse.
   bool analysed() const { return analysed_; }
 
@@ -61,7 +66,8 @@ class BlockSystem {
   int first_slot_ = 0;
   std::vector<int> bodies_, bodies_now_;  ///< ascending problem indices
   std::vector<int> node_of_slot_;
-  std::vector<NodePair> pairs_;    ///< of the analysed graph
+  std::vector<NodePair> pairs_;  ///< of the analysed graph
+  std::vector<NodePair> known_pairs_, all_pairs_;
   std::vector<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
 };
 
