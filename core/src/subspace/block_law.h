@@ -11,7 +11,7 @@ namespace cairn {
 
 /// The side of one row of every lane; see RowSide.
 struct SideLine {
-  RowSide lane[simd::kLanes];
+  RowSide lane[simd::kLanes] = {};
 };
 
 /// What a step wants to know of the lanes of a block.

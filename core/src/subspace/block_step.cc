@@ -37,12 +37,9 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
   system_ = system;
   islands_ = islands;
   Read(settings);
-  MultiplyTransposed(x_, &u_);
-  FindSlack();
-  ForBlocks([](const BlockLaw<T>& law) { law.Predict(); });
+  Predict();
 
   // those from whose sets rows had to be removed, again; others are done when they are refined
-  start_ = x_;
   int made = 0;
   for (; made < settings.factorisations && Any(kOpen); ++made) {
     WorkOn(kOpen);
@@ -55,14 +52,46 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
       phases_[island] = factorised ? kRefined : kDone;
     });
     if (!factorised) break;
-    CopyTaken(start_, &x_);
+    if (made > 0) CopyTaken(start_, &x_);
     Refine();
     Remove();
     RefineWhileSetHolds(settings.refinements);
   }
-  ForBlocks([](const BlockLaw<T>& law) { law.Project(); });
+  if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Project(); });
   Write();
   return made;
+}
+
+template <class T>
+void BlockStep<T>::Predict() {
+  const auto first = plan_->blocks().begin() + group_->first_block;
+  bounded_ = std::any_of(first, first + group_->blocks, [](const simd::PairBlock& block) {
+    return std::any_of(block.rows, block.rows + block.row_count, [](const simd::RowShape& row) {
+      return row.bound != simd::RowBound::kFree;
+    });
+  });
+  if (!bounded_) {
+    // no row can leave the set
+    std::fill(sides_.begin(), sides_.end(), SideLine{});
+    return;
+  }
+  start_ = x_;
+  ReadVelocities();
+  FindSlack();
+  ForBlocks([](const BlockLaw<T>& law) { law.Predict(); });
+}
+
+template <class T>
+void BlockStep<T>::ReadVelocities() {
+  for (int slot = group_->first_slot; slot < group_->first_slot + group_->slots; ++slot) {
+    const int node = system_->node_of_slot(slot);
+    if (node < 0) continue;
+    const float* const u = blocks_->bodies[slot].u;
+    for (int k = 0; k < 3; ++k) {
+      u_[6 * node + k] = static_cast<T>(u[k]);
+      u_[6 * node + 3 + k] = static_cast<T>(u[4 + k]);
+    }
+  }
 }
 
 template <class T>
@@ -222,7 +251,7 @@ void BlockStep<T>::FindSlack() {
 /// One solve for the free rows:  H du = G_F' W r,  x_F += W (r - G_F du)  with  r = -w_F.
 template <class T>
 void BlockStep<T>::Refine() {
-  ForBlocks([](const BlockLaw<T>& law) { law.Fix(); });
+  if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Fix(); });
   MultiplyTransposed(x_, &u_);
   FindSlack();
   for (size_t i = 0; i < x_.size(); ++i) {
@@ -271,6 +300,7 @@ void BlockStep<T>::RefineWhileSetHolds(int refinements) {
 
 template <class T>
 void BlockStep<T>::Remove() {
+  if (!bounded_) return;
   for (int b = 0; b < group_->blocks; ++b) {
     const std::uint32_t removed = LawOf(b).RemoveViolated();
     for (int l = 0; l < kLanes && removed != 0; ++l) {

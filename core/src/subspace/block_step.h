@@ -39,6 +39,9 @@ class BlockStep {
 
   void Read(const StepSettings& settings);
   void FindTolerances();
+  void Predict();
+  /// u as the sweeps left it: floats that x belongs to but for rounding.
+  void ReadVelocities();
   void FindSlack();
   void Refine();
   void RefineWhileSetHolds(int refinements);
@@ -69,6 +72,7 @@ class BlockStep {
   BlockData* blocks_ = nullptr;
   BlockSystem<T>* system_ = nullptr;
   std::span<IslandStep> islands_;
+  bool bounded_ = false;                      ///< some row of the group has bounds
   std::vector<char> phases_, phases_before_;  ///< by island
 
   std::vector<LaneSettings<T>> lanes_;  ///< by block
