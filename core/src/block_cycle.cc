@@ -121,7 +121,7 @@ void BlockCycle::Leg() {
     const int unseen = UnseenAfter(SweepsMade());
     whole = sweeps_->Sweep(std::min(end - SweepsMade(), unseen), made_);
     if (whole) See(made_);
-    if (whole && SweepsMade() == kMarkedSweep) MarkMerits();
+    if (whole && SweepsMade() == kMarkedSweep) MarkEnergies();
     if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
     Judge(whole);
   }

@@ -37,9 +37,9 @@ class BlockCycle {
     Residual seen;            ///< by the last measured sweep
     Residual seen_with_step;  ///< the same, while sweeps alone are tried
     Residual best;            ///< of the snapshot; its energy is infinite if there is none
-    double first_merit = 0;   ///< after the first few sweeps, if marked; see FindMerits()
-    bool marked = false;
-    bool stepped = false;  ///< a step was taken before this leg, and is not judged yet
+    double first_energy = 0;  ///< Residual::energy after the first few sweeps
+    bool too_late = false;    ///< a step does not fit any more
+    bool stepped = false;     ///< a step was taken before this leg, and is not judged yet
     bool better_alone = false;
     bool rests = false;  ///< one was judged after this leg: the next leg is one of sweeps
   };
@@ -76,10 +76,8 @@ class BlockCycle {
   double SureGain() const;
   void KeepBetterSteps(int sweeps);
   void TryWithoutSteps(int sweeps);
-  /// Merits of the islands of the groups that are chosen; see FindMerits().
-  void FindChosenMerits(std::vector<double>* merits);
-  /// Remembers them, if frames with steps are compared with frames without.
-  void MarkMerits();
+  /// Remembers where frames with steps and frames without begin to differ.
+  void MarkEnergies();
   /// Tells what steps, or sweeps alone, came to in this frame.
   void Learn(StepChoice* choice);
 
@@ -95,7 +93,6 @@ class BlockCycle {
   std::vector<IslandReport> islands_;
   std::vector<int> stepped_islands_, stopped_;
   std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
-  std::vector<double> merits_;                                ///< by island
   BlockSnapshot done_, best_, before_steps_, after_steps_;
   int legs_ = 0;
 };

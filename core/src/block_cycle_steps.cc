@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "block_cycle.h"
-#include "block_merit.h"
 
 namespace cairn {
 namespace {
@@ -17,6 +16,8 @@ constexpr int kLeastSweepsAfterStep = 3;
 /// budget less is enough: that trial takes from it as much as the sweeps of the step do, and frames
 /// are compared there.
 constexpr double kSureGain = 0.1, kSureGainOfBudget = 0.7;
+/// Squared residuals below this share of the first are rounding.
+constexpr double kLeastShare = 1e-10;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
@@ -37,28 +38,31 @@ void BlockCycle::FindCandidates() {
     const Group& group = plan.groups()[g];
     const size_t first = stepped_islands_.size();
     for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
-      if (std::exchange(states_[i].rests, false) || Done(i)) continue;
-      if (plan.islands()[i].first_body >= 0 && steps_.Due(i)) stepped_islands_.push_back(i);
+      if (std::exchange(states_[i].rests, false) || Done(i) || states_[i].too_late) continue;
+      if (plan.islands()[i].first_body < 0) continue;
+      if (steps_.Due(i)) stepped_islands_.push_back(i);
     }
     if (stepped_islands_.size() == first) continue;
 
     const double rows = static_cast<double>(group.rows), after = sweeps_units + sweeps * rows;
-    double price = steps_.PriceOfPrice(g);
+    const auto islands = std::span(stepped_islands_).subspan(first);
+    double price = steps_.PriceOfPrice(g, islands);
     bool fits = meter_->Fits(steps_units + price, after);
     if (fits) {
       // as many factorisations as fit
-      const auto islands = std::span(stepped_islands_).subspan(first);
       int most = settings_->k_sm;
       do {
         price = steps_.Price(g, islands, most);
         fits = (always || price <= kMostSweeps * rows) && meter_->Fits(steps_units + price, after);
       } while (!fits && --most > 0);
       steps_.Limit(g, most);
-      for (int i : islands) {
-        if (!fits) steps_.Postpone(i);
-      }
     }
     if (!fits) {
+      // there is never more left of a budget; the next frame has its own
+      for (int i : islands) {
+        states_[i].too_late = true;
+        if (!watches_) steps_.Postpone(i);
+      }
       stepped_islands_.resize(first);
       continue;
     }
@@ -67,38 +71,21 @@ void BlockCycle::FindCandidates() {
   }
 }
 
-void BlockCycle::FindChosenMerits(std::vector<double>* merits) {
-  merits->resize(islands_.size());
-  for (size_t g = 0; g < chosen_.size(); ++g) {
-    if (chosen_[g].active) {
-      FindMerits(frame_->plan(), frame_->plan().groups()[g], frame_->blocks(), *merits);
-    }
-  }
-}
-
-void BlockCycle::MarkMerits() {
-  if (!watches_) return;
-  for (GroupSweeps& group : chosen_) group.active = true;
-  FindChosenMerits(&merits_);
-  for (size_t i = 0; i < islands_.size(); ++i) {
-    states_[i].first_merit = merits_[i];
-    states_[i].marked = true;
+void BlockCycle::MarkEnergies() {
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!Done(i)) states_[i].first_energy = states_[i].seen.energy;
   }
 }
 
 void BlockCycle::Learn(StepChoice* choice) {
-  bool stepped = false, marked = false;
-  double fall = 0, size = 0;
-  for (GroupSweeps& group : chosen_) group.active = true;
-  FindChosenMerits(&merits_);
+  double first = 0, last = 0;
   for (size_t i = 0; i < islands_.size(); ++i) {
-    stepped = stepped || islands_[i].steps_accepted + islands_[i].steps_restored > 0;
-    marked = marked || states_[i].marked;
-    if (!states_[i].marked) continue;
-    fall += states_[i].first_merit - merits_[i];
-    size += std::abs(merits_[i]);
+    if (states_[i].first_energy <= 0) continue;
+    first += states_[i].first_energy * states_[i].first_energy;
+    last += after_[i].energy * after_[i].energy;
   }
-  if (marked && size > 0) choice->Learn(stepped, fall / size);
+  // also where steps were asked for and none was taken: asking took its time
+  if (first > 0) choice->Learn(steps_.asked(), -std::log(last / first + kLeastShare));
 }
 
 void BlockCycle::TakeSteps() {

@@ -82,16 +82,26 @@ BlockSystem<T>& BlockSteps::SystemOf(int group) {
   return MemoryOf(first)->block_system<T>(frame_->target());
 }
 
-double BlockSteps::PriceOfPrice(int group) const {
+double BlockSteps::PriceOfPrice(int group, std::span<const int> islands) {
+  const Precisions precisions = PrecisionsOf(islands);
+  const int plan = frame_->plan_number();
+  const bool known =
+      (!precisions.some_double || SystemOf<double>(group).IsPreparedFor(plan, group)) &&
+      (precisions.all_double || SystemOf<float>(group).IsPreparedFor(plan, group));
+  if (known) return 0;
   return kAnalyseRow * static_cast<double>(frame_->plan().groups()[group].rows);
 }
 
-double BlockSteps::Price(int group, std::span<const int> islands, int factorisations) {
+BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) const {
   const auto is_double = [this](int i) { return in_double_[i] != 0; };
   const bool some = std::any_of(islands.begin(), islands.end(), is_double);
-  const bool all = some && std::all_of(islands.begin(), islands.end(), is_double);
-  return (some ? PriceOf<double>(group, factorisations) : 0) +
-         (all ? 0 : PriceOf<float>(group, factorisations));
+  return {some, some && std::all_of(islands.begin(), islands.end(), is_double)};
+}
+
+double BlockSteps::Price(int group, std::span<const int> islands, int factorisations) {
+  const Precisions precisions = PrecisionsOf(islands);
+  return (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
+         (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
 }
 
 template <class T>

@@ -30,7 +30,7 @@ class BlockSteps {
   /// What a step with so many factorisations costs on some islands of a group, in relaxations of
   /// rows by kernels; what asking may cost.
   double Price(int group, std::span<const int> islands, int factorisations);
-  double PriceOfPrice(int group) const;
+  double PriceOfPrice(int group, std::span<const int> islands);
   /// The island is left alone for a while: steps are too dear there.
   void Postpone(int island) { MemoryOf(island)->Postpone(); }
   /// How many factorisations the next step of a group may make.
@@ -43,6 +43,10 @@ class BlockSteps {
   void Judge(int island, bool accepted);
 
  private:
+  struct Precisions {
+    bool some_double, all_double;
+  };
+  Precisions PrecisionsOf(std::span<const int> islands) const;
   IslandMemory* MemoryOf(int island);
   void ReadPlan();
   template <class T>

@@ -15,7 +15,7 @@ enum class WorkKind { kSweep, kStep };
 /// Nanoseconds that work takes on this machine, learnt from timed frames; see BudgetMeter.
 struct WorkPrices {
   double sweep_ns = 2;    ///< a work unit of sweeps
-  double step_ns = 1.7;   ///< a work unit of steps
+  double step_ns = 1.3;   ///< a work unit of steps
   double finish_ns = 10;  ///< a row, from the last sweep to the end of the Solve()
 };
 

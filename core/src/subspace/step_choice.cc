@@ -8,8 +8,8 @@ namespace {
 
 /// Frames to the next trial of the other way: first, and at most.
 constexpr int kFirstInterval = 8, kLongestInterval = 256;
-/// Weight of the newest frame.
-constexpr double kNewest = 0.3;
+/// Weight of the newest frame, and of one that is the first for long.
+constexpr double kNewest = 0.3, kTrial = 0.7;
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void StepChoice::Learn(bool stepped, double gain) {
   // nothing is learnt of steps where none could be taken
   if (steps_ != stepped) return;
   Way& way = stepped ? with_ : without_;
-  way.gain = way.known ? way.gain + kNewest * (gain - way.gain) : gain;
+  way.gain = way.known ? way.gain + (trial_ ? kTrial : kNewest) * (gain - way.gain) : gain;
   way.known = true;
   ChooseBetter();
 }
