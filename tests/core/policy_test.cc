@@ -75,6 +75,23 @@ TEST(IslandMemory, SoftensStepsThatFailAndHardensThemAgain) {
   }
 }
 
+// Half the term after each success, down to what is allowed; after a failure not below five times
+// the one that failed, which 35 successes forget by half.
+TEST(IslandMemory, LowersTheProximalTermWhereThatIsAllowedUntilItFails) {
+  Asked asked(test::Tower(3));
+  constexpr double kLeast = 1.0 / 32;
+  for (double softening : {1 / 2.0, 1 / 4.0, 1 / 8.0}) {
+    asked.memory().Accepted(kLeast);
+    EXPECT_DOUBLE_EQ(asked.Softened(), softening);
+  }
+  asked.memory().Restored();
+  EXPECT_DOUBLE_EQ(asked.Softened(), 5 / 8.0);
+  for (int i = 0; i < 34; ++i) asked.memory().Accepted(kLeast);
+  EXPECT_NEAR(asked.Softened(), 5 / 16.0, 0.01);
+  for (int i = 0; i < 1000; ++i) asked.memory().Accepted(kLeast);
+  EXPECT_DOUBLE_EQ(asked.Softened(), kLeast);
+}
+
 // 60 bodies that all touch one another with one row a pair: a dense factor of 360 costs 1.5e7
 // multiply-adds, some 270 sweeps over 1770 rows. In a chain it is next to nothing.
 TEST(IslandMemory, LeavesOutStepsThatCostMoreThanTheyCanGain) {

@@ -21,11 +21,14 @@ constexpr double kMostSweeps = 150;
 constexpr int kPriceAgain = 30;
 constexpr int kLongestPause = 32;
 constexpr double kMostSoftening = 100;
+constexpr double kLeastProximal = 1e-8;
+/// By which what a failure taught fades with each success: some 35 of them halve it.
+constexpr double kForgetFailures = 0.98;
 
 }  // namespace
 
 StepSettings IslandMemory::Step(const Settings& settings) const {
-  return {.proximal = std::min(1.0, settings.proximal * softening_),
+  return {.proximal = std::clamp(settings.proximal * softening_, kLeastProximal, 1.0),
           .proximal_joints = settings.proximal_joints,
           .factorisations = settings.k_sm,
           .refinements = settings.refinements};
@@ -70,15 +73,17 @@ BlockSystem<double>& IslandMemory::block_system(simd::Target target) {
   return *double_system_;
 }
 
-void IslandMemory::Accepted() {
+void IslandMemory::Accepted(double least) {
   strikes_ = 0;
-  softening_ = std::max(1.0, softening_ / 2);
+  least_ *= kForgetFailures;
+  softening_ = std::max({least, least_, softening_ / 2});
 }
 
 void IslandMemory::Restored() {
   pause_ = std::min(kLongestPause, 1 << std::min(strikes_, 5));
   ++strikes_;
   softening_ = std::min(kMostSoftening, softening_ * 5);
+  least_ = std::min(1.0, softening_);
 }
 
 }  // namespace cairn

@@ -36,7 +36,8 @@ class IslandMemory {
   /// @pre StepPays()
   double Cost(const PackedIsland& island, const Settings& settings, int factorisations) const;
 
-  void Accepted();
+  /// @param least  factor on Settings::proximal that successes bring it down to, > 0
+  void Accepted(double least = 1);
   void Restored();
 
   BodySystem& system() { return system_; }
@@ -48,7 +49,8 @@ class IslandMemory {
   BodySystem system_;
   std::unique_ptr<BlockSystem<float>> float_system_;
   std::unique_ptr<BlockSystem<double>> double_system_;
-  double softening_ = 1;  ///< factor on Settings::proximal, >= 1
+  double softening_ = 1;  ///< factor on Settings::proximal
+  double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
   int strikes_ = 0;       ///< rejections in a row
   int pause_ = 0;         ///< opportunities still to be passed over
 };
