@@ -52,7 +52,9 @@ void BlockCycle::Begin() {
   IslandState fresh;
   fresh.best.energy = kInfinity;
   states_.assign(plan.islands().size(), fresh);
-  islands_.assign(plan.islands().size(), {});
+  IslandReport fresh_report;
+  if (steps_.asked()) fresh_report.no_step = NoStep::kEnded;
+  islands_.assign(plan.islands().size(), fresh_report);
   stepped_islands_.clear();
   stopped_.clear();
   stopped_.reserve(islands_.size());

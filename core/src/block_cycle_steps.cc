@@ -40,7 +40,9 @@ void BlockCycle::FindCandidates() {
     for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
       if (std::exchange(states_[i].rests, false) || Done(i) || states_[i].too_late) continue;
       if (plan.islands()[i].first_body < 0) continue;
-      if (steps_.Due(i)) stepped_islands_.push_back(i);
+      const bool due = steps_.Due(i);
+      if (due) stepped_islands_.push_back(i);
+      islands_[i].no_step = due ? NoStep::kEnded : NoStep::kPaused;
     }
     if (stepped_islands_.size() == first) continue;
 
@@ -61,6 +63,7 @@ void BlockCycle::FindCandidates() {
       // there is never more left of a budget; the next frame has its own
       for (int i : islands) {
         states_[i].too_late = true;
+        islands_[i].no_step = NoStep::kTooDear;
         if (!watches_) steps_.Postpone(i);
       }
       stepped_islands_.resize(first);
@@ -106,6 +109,7 @@ void BlockCycle::TakeSteps() {
     steps_.Take(group, islands, meter_);
     for (int i : islands) {
       islands_[i].factorisations += steps_.result(i).factorisations;
+      islands_[i].step_work += static_cast<std::int64_t>(steps_.work(i));
       states_[i].stepped = steps_.result(i).solved;
     }
   }

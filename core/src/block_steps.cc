@@ -41,6 +41,7 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
   memory_of_island_.assign(plan.islands().size(), nullptr);
   islands_.assign(plan.islands().size(), {});
   islands_now_.assign(plan.islands().size(), {});
+  work_.assign(plan.islands().size(), 0);
   limits_.assign(plan.groups().size(), settings.k_sm);
   if (float_step_ == nullptr) {
     float_step_ = std::make_unique<BlockStep<float>>(frame->target());
@@ -141,9 +142,15 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BudgetMeter* me
   meter->Begin();
   const int made =
       step->Take(frame_->plan(), group, settings, &system, crew_, &frame_->blocks(), islands_now_);
-  meter->Charge(WorkKind::kStep, PriceOf<T>(group, made));
+  const double price = PriceOf<T>(group, made);
+  meter->Charge(WorkKind::kStep, price);
+  double rows = 0;
+  for (int i : islands) rows += chosen(i) ? frame_->plan().islands()[i].rows : 0;
   for (int i : islands) {
-    if (chosen(i)) islands_[i] = islands_now_[i];
+    if (chosen(i)) {
+      islands_[i] = islands_now_[i];
+      work_[i] = price * frame_->plan().islands()[i].rows / rows;
+    }
     islands_now_[i].taken = false;
   }
 }

@@ -39,6 +39,8 @@ class BlockSteps {
   void Take(int group, std::span<const int> islands, BudgetMeter* meter);
   /// What came of the last one; where it did not succeed, nothing changed.
   const StepResult& result(int island) const { return islands_[island].result; }
+  /// What was charged for it: its share of the group's, by rows.
+  double work(int island) const { return work_[island]; }
   /// What became of the step.
   void Judge(int island, bool accepted);
 
@@ -70,6 +72,7 @@ class BlockSteps {
   std::vector<std::uint64_t> keys_;  ///< by island
   std::vector<IslandMemory*> memory_of_island_;
   std::vector<IslandStep> islands_, islands_now_;
+  std::vector<double> work_;  ///< by island
   std::unique_ptr<BlockStep<float>> float_step_;
   std::unique_ptr<BlockStep<double>> double_step_;
 };

@@ -27,6 +27,8 @@ double Largest(const Residual& residual) { return std::max(residual.max, residua
 IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Settings& settings,
                          IslandMemory* memory)
     : island_(island), settings_(settings), memory_(memory), at_{.state = std::move(start)} {
+  const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
+  if (asked) report_.no_step = NoStep::kEnded;
   if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
 }
 
@@ -102,8 +104,11 @@ bool IslandCycle::StepsLeft() const {
 bool IslandCycle::StepPays(BudgetMeter* meter) {
   // after the step, its sweeps, and as many without it, which it has to beat
   const double sweeps = 2 * (SweepsOfLeg() + kMeasureSweeps);
-  return memory_->Due(settings_) &&
-         memory_->StepPays(island_, settings_, {meter, sweeps * units_per_sweep()});
+  const bool due = memory_->Due(settings_);
+  const bool pays =
+      due && memory_->StepPays(island_, settings_, {meter, sweeps * units_per_sweep()});
+  report_.no_step = pays ? NoStep::kEnded : due ? NoStep::kTooDear : NoStep::kPaused;
+  return pays;
 }
 
 void IslandCycle::StepLeg(BudgetMeter* meter) {
@@ -112,7 +117,9 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
   meter->Begin();
   const StepResult result = TakeStep(island_, step, &memory_->system(), &at_.state);
   report_.factorisations += result.factorisations;
-  meter->Charge(WorkKind::kStep, memory_->Cost(island_, settings_, result.factorisations));
+  const double cost = memory_->Cost(island_, settings_, result.factorisations);
+  meter->Charge(WorkKind::kStep, cost);
+  report_.step_work += static_cast<std::int64_t>(cost);
 
   // judged after sweeps: before them, nearly every good step looks worse
   Sweeps(SweepsOfLeg(), meter);

@@ -64,4 +64,18 @@ std::string_view Describe(StopReason reason) {
   return "unknown reason";
 }
 
+std::string_view Describe(NoStep reason) {
+  switch (reason) {
+    case NoStep::kNotAsked:
+      return "not asked for";
+    case NoStep::kEnded:
+      return "iteration ended";
+    case NoStep::kPaused:
+      return "failed of late";
+    case NoStep::kTooDear:
+      return "too dear";
+  }
+  return "unknown reason";
+}
+
 }  // namespace cairn

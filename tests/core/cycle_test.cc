@@ -122,6 +122,57 @@ TEST(Steps, AreNotTakenUnlessAskedFor) {
   }
 }
 
+// In blocks and row by row. A budget of ten sweeps holds no step, which costs more than that.
+TEST(Steps, AreAccountedForWithTheReasonWhyThereWereNoMore) {
+  const Scene tower = test::Tower(6);
+  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+    const auto island = [&](Settings settings) {
+      settings.order = order;
+      return test::Solve(settings, tower).report.islands.at(0);
+    };
+    const IslandReport one = island(AlwaysSteps(10)), two = island(AlwaysSteps(20));
+    EXPECT_GT(one.step_work, static_cast<std::int64_t>(tower.rows.size()));
+    EXPECT_GT(two.step_work, one.step_work);
+    EXPECT_EQ(two.no_step, NoStep::kEnded);
+
+    EXPECT_EQ(island(PlainSweeps(10)).no_step, NoStep::kNotAsked);
+    EXPECT_EQ(island(PlainSweeps(10)).step_work, 0);
+    Settings tight = AlwaysSteps(1000);
+    tight.budget = Budget::Work(10 * static_cast<std::int64_t>(tower.rows.size()));
+    EXPECT_EQ(island(tight).no_step, NoStep::kTooDear);
+    EXPECT_EQ(island(tight).step_work, 0);
+  }
+}
+
+// Islands that share the lanes of a step share out its price.
+TEST(Steps, AreChargedToIslandsByTheirRows) {
+  const auto work = [](const std::vector<int>& heights) {
+    Scene scene;
+    for (int height : heights) {
+      const Scene tower = test::Tower(height);
+      const int first = static_cast<int>(scene.bodies.size());
+      const int first_row = static_cast<int>(scene.rows.size());
+      scene.bodies.insert(scene.bodies.end(), tower.bodies.begin(), tower.bodies.end());
+      for (Row row : tower.rows) {
+        if (row.body_a != kWorld) row.body_a += first;
+        if (row.body_b != kWorld) row.body_b += first;
+        if (row.parent != kNoRow) row.parent += first_row;
+        scene.rows.push_back(row);
+      }
+    }
+    Settings settings = AlwaysSteps(10);
+    settings.order = SweepOrder::kColoured;
+    std::vector<std::int64_t> of_islands;
+    for (const IslandReport& island : test::Solve(settings, scene).report.islands) {
+      of_islands.push_back(island.step_work);
+    }
+    return of_islands;
+  };
+  const auto both = work({3, 6});
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NEAR(static_cast<double>(both[1]), 2 * static_cast<double>(both[0]), 2);
+}
+
 // Whatever the steps do, k_sm limits the factorisations of each.
 TEST(Steps, MakeNoMoreFactorisationsThanAllowed) {
   int most = 0;

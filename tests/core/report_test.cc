@@ -30,9 +30,20 @@ TEST(Describe, SaysSomethingElseForEveryStopReason) {
   EXPECT_EQ(words.count("unknown reason"), 0u);
 }
 
+TEST(Describe, SaysSomethingElseForEveryReasonNotToStep) {
+  std::set<std::string_view> words;
+  for (int i = 0; i <= static_cast<int>(NoStep::kTooDear); ++i) {
+    const std::string_view word = Describe(static_cast<NoStep>(i));
+    EXPECT_GT(word.size(), 5u) << i;
+    EXPECT_TRUE(words.insert(word).second) << word;
+  }
+  EXPECT_EQ(words.count("unknown reason"), 0u);
+}
+
 TEST(Describe, AnswersNumbersThatAreNoStatus) {
   EXPECT_EQ(Describe(static_cast<Status>(99)), "unknown status");
   EXPECT_EQ(Describe(static_cast<StopReason>(99)), "unknown reason");
+  EXPECT_EQ(Describe(static_cast<NoStep>(99)), "unknown reason");
 }
 
 }  // namespace

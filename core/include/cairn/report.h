@@ -51,6 +51,17 @@ enum class StopReason {
 
 std::string_view Describe(StopReason reason);
 
+/// Why no further subspace step was taken on an island.
+enum class NoStep {
+  kNotAsked,  ///< Not by Settings, or not in this frame: frames with steps gained less of late.
+  kEnded,     ///< The iteration ended before another one was due.
+  kPaused,    ///< One was undone or too dear of late; see StepPolicy::kMeasured.
+  kTooDear,   ///< It would not have fitted the budget with its sweeps, or cost more than it can
+              ///< gain.
+};
+
+std::string_view Describe(NoStep reason);
+
 /// How far impulses are from the solution, measured by the natural map
 ///   e_i = d_i |x_i - clamp(x_i - w_i / d_i, lo_i, hi_i)|,   d_i = J_i M^-1 J_i' + E_i,
 /// with the bounds of friction rows taken from the present impulse of their parent.
@@ -70,6 +81,10 @@ struct IslandReport {
   int factorisations = 0;
   int steps_accepted = 0;  ///< Subspace steps kept.
   int steps_restored = 0;  ///< Subspace steps undone, because the sweeps after them ended worse.
+  /// Work units charged for subspace steps, kept or not, without the sweeps around them. Steps that
+  /// islands take together are shared out by rows.
+  std::int64_t step_work = 0;
+  NoStep no_step = NoStep::kNotAsked;
   StopReason stop = StopReason::kNotStarted;
 };
 
