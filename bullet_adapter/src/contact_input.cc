@@ -63,8 +63,8 @@ void ReadFriction(const Sides& sides, const btContactSolverInfo& info, ContactIn
   input->tangent_impulses[1] = point.m_appliedImpulseLateral2;
   const bool none = point.m_appliedImpulseLateral1 == 0 && point.m_appliedImpulseLateral2 == 0;
   if (directions.as_left || none) return;
-  const btVector3 left = LeftFriction(point, directions.count);
-  for (int k = 0; k < 2; ++k) {
+  const btVector3 left = LeftFriction(point, directions);
+  for (int k = 0; k < directions.count; ++k) {
     const btScalar length2 = input->tangents[k].length2();
     input->tangent_impulses[k] = length2 > 0 ? left.dot(input->tangents[k]) / length2 : btScalar(0);
   }

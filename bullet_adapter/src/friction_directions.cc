@@ -24,18 +24,8 @@ struct PlaneVector {
 PlaneVector FromHeading(btScalar heading) {
   const btScalar x = heading < 3 ? 2 - heading : heading - 4;
   const btScalar y = heading < 3 ? 1 - btFabs(x) : btFabs(x) - 1;
-  const btScalar length = btSqrt(x * x + y * y);
-  return {x / length, y / length};
-}
-
-struct PlaneAxes {
-  btVector3 x, y;
-};
-
-PlaneAxes AxesOf(const btVector3& normal) {
-  PlaneAxes axes;
-  btPlaneSpace1(normal, axes.x, axes.y);
-  return axes;
+  const btScalar inverse_length = 1 / btSqrt(x * x + y * y);
+  return {x * inverse_length, y * inverse_length};
 }
 
 btVector3 AnisotropicForBoth(const btPersistentManifold& manifold, const btVector3& direction) {
@@ -69,12 +59,12 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
   }
 
   const btVector3& normal = point->m_normalWorldOnB;
+  btPlaneSpace1(normal, result.plane_x, result.plane_y);
   const btVector3 lateral = velocity - normal * normal.dot(velocity);
   const btScalar speed2 = lateral.length2();
   if (by_velocity && speed2 > SIMD_EPSILON) {
     const btVector3 unit = lateral * (1 / btSqrt(speed2));
-    const PlaneAxes axes = AxesOf(normal);
-    result.left.heading = ToHeading(unit.dot(axes.x), unit.dot(axes.y));
+    result.left.heading = ToHeading(unit.dot(result.plane_x), unit.dot(result.plane_y));
     point->m_lateralFrictionDir1 = result.first = AnisotropicForBoth(manifold, unit);
     if (!both) return result;
     result.second = AnisotropicForBoth(manifold, result.first.cross(normal).normalized());
@@ -82,9 +72,8 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
     return result;
   }
 
-  const PlaneAxes axes = AxesOf(normal);
-  result.first = AnisotropicForBoth(manifold, axes.x);
-  result.second = both ? AnisotropicForBoth(manifold, axes.y) : axes.y;
+  result.first = AnisotropicForBoth(manifold, result.plane_x);
+  result.second = both ? AnisotropicForBoth(manifold, result.plane_y) : result.plane_y;
   result.as_left = point->m_prevRHS == 0;
   if (both && !by_velocity) result.left.flags = BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
   point->m_lateralFrictionDir1 = result.first;
@@ -92,14 +81,15 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
   return result;
 }
 
-btVector3 LeftFriction(const btManifoldPoint& point, int directions) {
-  const PlaneAxes axes = AxesOf(point.m_normalWorldOnB);
+btVector3 LeftFriction(const btManifoldPoint& point, const FrictionDirections& today) {
   const btScalar first = point.m_appliedImpulseLateral1;
-  const btScalar second = directions > 1 ? point.m_appliedImpulseLateral2 : btScalar(0);
-  if (!(point.m_prevRHS >= 1 && point.m_prevRHS <= 5)) return axes.x * first + axes.y * second;
+  const btScalar second = today.count > 1 ? point.m_appliedImpulseLateral2 : btScalar(0);
+  if (!(point.m_prevRHS >= 1 && point.m_prevRHS <= 5)) {
+    return today.plane_x * first + today.plane_y * second;
+  }
   const PlaneVector along = FromHeading(point.m_prevRHS);
-  return axes.x * (along.x * first + along.y * second) +
-         axes.y * (along.y * first - along.x * second);
+  return today.plane_x * (along.x * first + along.y * second) +
+         today.plane_y * (along.y * first - along.x * second);
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -23,6 +23,7 @@ struct LeftDirections {
 /// The directions of friction at a point.
 struct FrictionDirections {
   btVector3 first, second{0, 0, 0};  ///< The second only where there are two.
+  btVector3 plane_x, plane_y;        ///< btPlaneSpace1 of the normal, unless they are the user's.
   int count = 1;                     ///< 1 or 2
   LeftDirections left;
   bool by_user = false;  ///< Set before the solver: with target speeds of their own.
@@ -42,8 +43,8 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
 
 /// The impulse [N s] that friction left at a point, in world axes; its place in the plane of
 /// contact is kept where the normal has turned since.
-/// @param directions  1 or 2; with one, the second lateral impulse is not Bullet's to write
-btVector3 LeftFriction(const btManifoldPoint& point, int directions);
+/// @param today  not the user's; if there is one direction, so was yesterday's
+btVector3 LeftFriction(const btManifoldPoint& point, const FrictionDirections& today);
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet
