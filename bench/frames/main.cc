@@ -11,6 +11,7 @@
 #include "CLI/CLI.hpp"
 #include "frames/budget.h"
 #include "frames/cost.h"
+#include "frames/swap.h"
 #include "frames/threads.h"
 
 namespace cairn::frames {
@@ -86,6 +87,20 @@ int Main(int count, char** arguments) {
   threads_app->add_option("--size", sizes, "Of pyramid3d; may be repeated");
   AddSeries(threads_app, &threads);
 
+  SwapOptions swap;
+  std::vector<std::string> swap_scenes = {"pyramid:100", "castle",   "pyramid3d",    "wall",
+                                          "rubble@240",  "ragdolls", "ragdolls:136", "islands",
+                                          "bridge",      "chain",    "tower"};
+  CLI::App* const swap_app =
+      app.add_subcommand("swap", "The whole adapter against Bullet's solver");
+  AddScenes(swap_app, &swap_scenes);
+  swap_app->add_option("--frame", swap.frame, "First frame looked at")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  swap_app->add_option("--frames", swap.frames, "How many")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+
   CLI11_PARSE(app, count, arguments);
   const std::string command = CommandOf(count, arguments);
   if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
@@ -95,6 +110,9 @@ int Main(int count, char** arguments) {
   } else if (cost_app->parsed()) {
     cost.scenes = ParseScenes(cost_scenes);
     PrintCosts(cost, command);
+  } else if (swap_app->parsed()) {
+    swap.scenes = ParseScenes(swap_scenes);
+    PrintSwaps(swap, command);
   } else {
     threads.scenes = Pyramids(sizes);
     PrintThreads(threads, command);

@@ -65,6 +65,7 @@ struct ConstraintSolver::Impl {
   std::vector<double> shown_impulses;
   Report report;
   bool fell_back = false, solved_fast = false;
+  SubstepTimes times;
 
   /// Groups between prepareSolve() and allSolved(), to be solved as one.
   bool collecting = false;
@@ -101,6 +102,8 @@ Options& ConstraintSolver::options() { return impl_->options; }
 
 const Report& ConstraintSolver::report() const { return impl_->report; }
 
+SubstepTimes ConstraintSolver::times() const { return impl_->times; }
+
 bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
 
 ContactProblem ConstraintSolver::problem() const {
@@ -134,6 +137,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   }
   impl_->start = Clock::now();
   impl_->fell_back = impl_->solved_fast = false;
+  impl_->times = {};
   if (impl_->options.mode == Mode::kFast) {
     const Group group{{bodies, static_cast<size_t>(num_bodies)},
                       {manifolds, static_cast<size_t>(num_manifolds)},
@@ -174,6 +178,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     impl_->solved_fast = true;
     return true;
   }
+  const Clock::time_point built = Clock::now();
   Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
@@ -185,6 +190,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   fast.Write(info);
   impl_->write_time = Clock::now() - solved;
   impl_->finish_time = {};
+  impl_->times = {built - impl_->start, solved - built, impl_->write_time};
   // 0 is the number that Bullet gives the first body
   Analyse(group, group.bodies.empty() ? -2 : 0);
   return true;

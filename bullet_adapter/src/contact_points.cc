@@ -47,15 +47,14 @@ bool ContactPoints::IsPlain(const btManifoldPoint& point) const {
       (info_.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0 &&
       (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) != 0;
   const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
-  const btScalar distance = point.getDistance() + info_.m_linearSlop;
-  const bool pushed =
-      info_.m_splitImpulse != 0 && distance <= info_.m_splitImpulsePenetrationThreshold;
-  return !by_user && !anchored && !pushed && !(point.m_combinedRollingFriction > 0);
+  return !by_user && !anchored && !(point.m_combinedRollingFriction > 0);
 }
 
-bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies) {
-  if (!takes_any_ || !IsPlain(*manifold)) return false;
+bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
+                           SplitImpulse* pushes) {
   const int count = manifold->getNumContacts();
+  if (count == 0) return true;
+  if (!takes_any_ || !IsPlain(*manifold)) return false;
   for (int i = 0; i < count; ++i) {
     if (!IsPlain(manifold->getContactPoint(i))) return false;
   }
@@ -65,12 +64,14 @@ bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies) {
   next.body_b = bodies->Number(*manifold->getBody1());
   if (!bodies->reacts(next.body_a) && !bodies->reacts(next.body_b)) return true;
   next.first_point = static_cast<int>(points_.size());
-  const btVector3& origin_a = manifold->getBody0()->getWorldTransform().getOrigin();
-  const btVector3& origin_b = manifold->getBody1()->getWorldTransform().getOrigin();
+  const Ends ends{next.body_a, next.body_b, manifold->getBody0()->getWorldTransform().getOrigin(),
+                  manifold->getBody1()->getWorldTransform().getOrigin()};
   const btScalar threshold = manifold->getContactProcessingThreshold();
   for (int i = 0; i < count; ++i) {
     btManifoldPoint& point = manifold->getContactPoint(i);
-    if (point.getDistance() <= threshold) AppendPoint(origin_a, origin_b, &point);
+    if (!(point.getDistance() <= threshold)) continue;
+    AppendPoint(ends, &point);
+    if (IsPushed(point)) AddPush(ends, point, *bodies, pushes);
   }
   next.points = static_cast<std::int8_t>(static_cast<int>(points_.size()) - next.first_point);
   for (int p = next.first_point; p < static_cast<int>(points_.size()); ++p) {
@@ -80,18 +81,41 @@ bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies) {
   return true;
 }
 
-float ContactPoints::Bias(btScalar distance, btScalar erp) const {
-  return static_cast<float>(-distance * (distance > 0 ? btScalar(1) : erp) / info_.m_timeStep);
+/// Deep penetration is taken away beside the velocities.
+bool ContactPoints::IsPushed(const btManifoldPoint& point) const {
+  const btScalar distance = point.getDistance() + info_.m_linearSlop;
+  return info_.m_splitImpulse != 0 &&
+         distance <= btMin(btScalar(0), info_.m_splitImpulsePenetrationThreshold);
 }
 
-void ContactPoints::AppendPoint(const btVector3& origin_a, const btVector3& origin_b,
-                                btManifoldPoint* source) {
+void ContactPoints::AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
+                            SplitImpulse* pushes) {
+  const Softness softness = SoftnessOf(point, info_);
+  const btScalar distance = point.getDistance() + info_.m_linearSlop;
+  const btScalar out = -distance * softness.erp / info_.m_timeStep;
+  if (out == 0) return;
+  const btVector3 zero(0, 0, 0), &normal = point.m_normalWorldOnB;
+  Axes axes{zero, zero, zero, zero};
+  if (ends.body_a != kWorld) {
+    axes.linear_a = normal;
+    axes.angular_a = (point.getPositionWorldOnA() - ends.origin_a).cross(normal);
+  }
+  if (ends.body_b != kWorld) {
+    axes.linear_b = -normal;
+    axes.angular_b = (point.getPositionWorldOnB() - ends.origin_b).cross(-normal);
+  }
+  pushes->Add({ends.body_a, ends.body_b, axes, out, softness.compliance}, info_.m_sor, bodies);
+}
+
+void ContactPoints::AppendPoint(const Ends& ends, btManifoldPoint* source) {
   const Softness softness = SoftnessOf(*source, info_);
+  const btScalar distance = source->getDistance() + info_.m_linearSlop;
+  const btScalar share = distance > 0 ? btScalar(1) : IsPushed(*source) ? 0 : softness.erp;
   ContactPoint& point = points_.emplace_back();
-  Put(source->getPositionWorldOnA() - origin_a, point.arm_a);
-  Put(source->getPositionWorldOnB() - origin_b, point.arm_b);
+  Put(source->getPositionWorldOnA() - ends.origin_a, point.arm_a);
+  Put(source->getPositionWorldOnB() - ends.origin_b, point.arm_b);
   Put(source->m_normalWorldOnB, point.normal);
-  point.bias = Bias(source->getDistance() + info_.m_linearSlop, softness.erp);
+  point.bias = static_cast<float>(-distance * share / info_.m_timeStep);
   // Bullet never bounces bodies into each other
   point.restitution = static_cast<float>(btMax(btScalar(0), source->m_combinedRestitution));
   point.friction = static_cast<float>(btMax(btScalar(0), source->m_combinedFriction));
@@ -100,7 +124,9 @@ void ContactPoints::AppendPoint(const btVector3& origin_a, const btVector3& orig
   impulses_.push_back(
       {.normal = static_cast<float>(source->m_appliedImpulse * start_.normal),
        .tangential = {static_cast<float>(source->m_appliedImpulseLateral1 * start_.friction),
-                      static_cast<float>(source->m_appliedImpulseLateral2 * start_.friction)},
+                      like_.tangents > 1
+                          ? static_cast<float>(source->m_appliedImpulseLateral2 * start_.friction)
+                          : 0.0f},
        .heading = static_cast<float>(source->m_prevRHS)});
   sources_.push_back(source);
 }

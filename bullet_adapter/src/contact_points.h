@@ -12,6 +12,7 @@
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
 #include "contact_input.h"
+#include "split_impulse.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -24,8 +25,9 @@ class ContactPoints {
  public:
   /// Begins a group.
   void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactStart& start);
-  /// Appends a manifold. False if it has to be written out as rows: nothing was done.
-  bool Append(btPersistentManifold* manifold, BodyTable* bodies);
+  /// Appends a manifold, and its deep penetration to @p pushes. False if it has to be written out
+  /// as rows: nothing was done.
+  bool Append(btPersistentManifold* manifold, BodyTable* bodies, SplitImpulse* pushes);
 
   std::span<const Manifold> manifolds() const { return manifolds_; }
   std::span<const ContactPoint> points() const { return points_; }
@@ -42,8 +44,14 @@ class ContactPoints {
  private:
   bool IsPlain(const btPersistentManifold& manifold) const;
   bool IsPlain(const btManifoldPoint& point) const;
-  void AppendPoint(const btVector3& origin_a, const btVector3& origin_b, btManifoldPoint* source);
-  float Bias(btScalar distance, btScalar erp) const;
+  struct Ends {
+    int body_a, body_b;
+    const btVector3 &origin_a, &origin_b;
+  };
+  bool IsPushed(const btManifoldPoint& point) const;
+  void AppendPoint(const Ends& ends, btManifoldPoint* source);
+  void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
+               SplitImpulse* pushes);
 
   btContactSolverInfo info_;
   bool takes_any_ = false;  ///< the settings of the group allow it

@@ -3,6 +3,7 @@
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
+#include <chrono>
 #include <memory>
 #include <span>
 
@@ -16,6 +17,13 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
 struct Group;
+
+/// Where the time of a substep went, wall clock, in Mode::kFast.
+struct SubstepTimes {
+  std::chrono::nanoseconds build{0};  ///< From Bullet's joints and contacts to the problem.
+  std::chrono::nanoseconds solve{0};  ///< In cairn::Solver.
+  std::chrono::nanoseconds write{0};  ///< Back into Bullet's objects.
+};
 
 /// Drop-in for btSequentialImpulseConstraintSolver: pass it to a btDiscreteDynamicsWorld, which
 /// does not own it.
@@ -53,6 +61,7 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// Of the last substep; of the last group where the caller does not bracket groups with
   /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
   const Report& report() const;
+  SubstepTimes times() const;
   /// Whether that was solved as by Mode::kReference though Mode::kFast was asked for: it has joints
   /// of a type that Bullet does not ship, or Solver::Solve() refused it or broke down.
   bool fell_back() const;
