@@ -34,7 +34,7 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   if (limits == SweepLimits::kBullet) like_.max_sweeps = info.m_numIterations;
   const bool by_velocity =
       (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) == 0;
-  takes_any_ = by_velocity && Relaxation(info.m_sor) == 1 && info.m_sor == 1;
+  takes_any_ = by_velocity && info.m_sor == 1;
 }
 
 bool ContactPoints::IsPlain(const btPersistentManifold& manifold) const {

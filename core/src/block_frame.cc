@@ -107,6 +107,7 @@ bool BlockFrame::SameManifolds(std::span<const Manifold> manifolds) const {
 PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const Impulses& impulses,
                              Crew* crew) {
   if (!WhitenBodies(problem, crew)) return PackResult::kChanged;
+  if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kChanged;
   for (int i = 0; i < static_cast<int>(problem.manifolds.size()); ++i) {
     if (ValidateManifold(problem, i) != Status::kOk) return PackResult::kChanged;
   }

@@ -262,6 +262,14 @@ TEST(Manifold, TurnsItsStartIntoTheDirectionsOfTheFrame) {
   }
 }
 
+TEST(Manifold, IsRefusedWithABounceSpeedThatIsNoSpeed) {
+  for (const float speed : {-1.0f, std::numeric_limits<float>::quiet_NaN()}) {
+    ManifoldScene scene = test::RandomManifolds(10, 20, 2);
+    scene.law.bounce_speed = speed;
+    EXPECT_EQ(Solve(Settings{}, scene).report.status, Status::kNotFinite);
+  }
+}
+
 struct Bad {
   const char* name;
   Status status;

@@ -66,7 +66,8 @@ struct Row {
 ///
 /// The order of the rows matters with SweepOrder::kForward, and among the rows of two bodies.
 /// Contacts may be given as rows, or as manifolds: their rows follow @p rows, manifold by manifold,
-/// first the normals of its points, then the friction of each. Manifolds are several times faster.
+/// first the normals of its points, then the friction of each. Manifolds are faster: nothing is
+/// written out.
 ///
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.

@@ -17,7 +17,7 @@ enum class Status {
   kEmptyProblem,  ///< No bodies.
   kWrongSize,     ///< A span of results does not have one entry per row, point or body, or a
                   ///< manifold has points that are not there.
-  kNotFinite,     ///< NaN, or infinity anywhere but in a bound.
+  kNotFinite,     ///< NaN, or infinity anywhere but in a bound; a bounce speed below 0.
   kBadMass,     ///< Negative inverse mass, or inverse inertia not symmetric positive semidefinite.
   kNoSuchBody,  ///< A row or manifold names a body that is not there, or the same one twice.
   kBadBounds,   ///< lo > hi.

@@ -17,7 +17,7 @@ enum class Mode {
 
 /// How contacts go to the solver in Mode::kFast.
 enum class ContactForm {
-  /// As manifolds, several times faster; those that have more than normals and plain friction (see
+  /// As manifolds, which is faster; those that have more than normals and plain friction (see
   /// docs/bullet.md) as rows.
   kManifolds,
   kRows,  ///< All as rows.
