@@ -32,6 +32,7 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   frame_ = frame;
   meter_ = meter;
   sweeps_ = &sweeps;
+  crew_ = crew;
   // a budget is shared by steps and sweeps: frames with steps and frames without are compared
   const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
   watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
@@ -59,6 +60,9 @@ void BlockCycle::Begin() {
   stopped_.clear();
   stopped_.reserve(islands_.size());
   legs_ = 0;
+  accelerates_ =
+      settings_->method == Method::kPgsSm && settings_->acceleration == Acceleration::kNncg;
+  nncg_.Begin(*frame_);
   if (after_.size() < islands_.size()) after_.resize(islands_.size());
   done_.Reserve(frame_->blocks());
   if (meter_->limited()) best_.Reserve(frame_->blocks());
@@ -121,8 +125,7 @@ void BlockCycle::Leg() {
   const int end = before + std::min(settings_->k_gs, settings_->max_sweeps - before);
   for (bool whole = true; whole && Active() && SweepsMade() < end;) {
     const int unseen = UnseenAfter(SweepsMade());
-    whole = sweeps_->Sweep(std::min(end - SweepsMade(), unseen), made_);
-    if (whole) See(made_);
+    whole = Sweep(std::min(end - SweepsMade(), unseen));
     if (whole && SweepsMade() == kMarkedSweep) MarkEnergies();
     if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
     Judge(whole);
@@ -130,6 +133,48 @@ void BlockCycle::Leg() {
   ++legs_;
   KeepBest();
   if (Active()) TakeSteps();
+}
+
+bool BlockCycle::Sweep(int count) {
+  if (!accelerates_) {
+    const bool whole = sweeps_->Sweep(count, made_);
+    if (whole) See(made_);
+    return whole;
+  }
+  for (bool whole = true; count > 0; --count) {
+    if (MoveOn()) {
+      sweeps_->SweepWhole(made_);
+    } else {
+      whole = sweeps_->Sweep(1, made_);
+    }
+    if (!whole) return false;
+    See(made_);
+    LearnWays();
+  }
+  return true;
+}
+
+void BlockCycle::LearnWays() {
+  const Plan& plan = frame_->plan();
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (made_[plan.islands()[i].group].active) nncg_.See(i, after_[i].energy);
+  }
+  nncg_.ForgetWhereRowsEnd(SweepsMade());
+}
+
+bool BlockCycle::MoveOn() {
+  double rows = 0;
+  for (size_t g = 0; g < made_.size(); ++g) {
+    if (made_[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);
+  }
+  if (!meter_->Fits(0, (1 + Nncg::kSweeps) * rows)) {
+    nncg_.ForgetAll();
+    return false;
+  }
+  meter_->Begin();
+  nncg_.MoveOn(made_, crew_, frame_);
+  meter_->Charge(WorkKind::kSweep, Nncg::kSweeps * rows);
+  return true;
 }
 
 void BlockCycle::See(std::span<const GroupSweeps> groups) {

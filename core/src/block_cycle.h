@@ -12,6 +12,7 @@
 #include "cairn/settings.h"
 #include "crew.h"
 #include "pgs/block_sweep.h"
+#include "pgs/nncg.h"
 
 namespace cairn {
 
@@ -46,6 +47,12 @@ class BlockCycle {
 
   void Begin();
   void Leg();
+  /// Makes so many sweeps, unless the budget ends before. The last one is seen.
+  bool Sweep(int count);
+  /// Moves the state on for one sweep, where that still fits.
+  bool MoveOn();
+  /// From what the last sweep saw.
+  void LearnWays();
   /// Reads what the last sweep of the groups saw.
   void See(std::span<const GroupSweeps> groups);
   void Judge(bool seen);
@@ -85,8 +92,11 @@ class BlockCycle {
   BlockFrame* frame_ = nullptr;
   BudgetMeter* meter_ = nullptr;
   BlockSweeps* sweeps_ = nullptr;
+  Crew* crew_ = nullptr;
   BlockSteps steps_;
   bool watches_ = false;  ///< what steps and sweeps make of the budget
+  bool accelerates_ = false;
+  Nncg nncg_;
 
   std::vector<GroupSweeps> made_, chosen_;
   std::vector<IslandState> states_;

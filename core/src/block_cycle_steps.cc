@@ -108,6 +108,7 @@ void BlockCycle::TakeSteps() {
     for (int i : islands) before_steps_.Take(plan, i, frame_->blocks());
     steps_.Take(group, islands, meter_);
     for (int i : islands) {
+      nncg_.Forget(i);
       islands_[i].factorisations += steps_.result(i).factorisations;
       islands_[i].step_work += static_cast<std::int64_t>(steps_.work(i));
       states_[i].stepped = steps_.result(i).solved;
@@ -138,6 +139,7 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
 
   for (int i : stepped_islands_) {
     const bool accepted = !states_[i].better_alone;
+    if (!accepted) nncg_.Forget(i);
     steps_.Judge(i, accepted);
     ++(accepted ? islands_[i].steps_accepted : islands_[i].steps_restored);
     states_[i].stepped = false;

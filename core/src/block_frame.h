@@ -31,6 +31,8 @@ class BlockFrame {
   std::span<const WhitenedBody> bodies() const { return bodies_; }
   BlockData& blocks() { return blocks_; }
   std::span<simd::BlockError> errors() { return errors_; }
+  /// Room for one number of each island, to sum errors with.
+  std::span<double> scales() { return scales_; }
   simd::Target target() const { return target_; }
   const simd::PairKernels& kernels() const { return *kernels_; }
 
@@ -62,6 +64,7 @@ class BlockFrame {
   std::vector<simd::ContactBody> contact_bodies_;
   BlockData blocks_;
   std::vector<simd::BlockError> errors_;
+  std::vector<double> scales_;
 };
 
 }  // namespace cairn

@@ -196,15 +196,15 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
 Status Validate(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
   const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay,
-               min_sweeps, threads, executor, omega, lifted_friction, step_policy, proximal,
-               proximal_joints, refinements, active_tolerance] = settings;
+               min_sweeps, threads, executor, omega, lifted_friction, acceleration, step_policy,
+               proximal, proximal_joints, refinements, active_tolerance] = settings;
   static_cast<void>(executor);  // any will do
   const bool replays = replay == nullptr || replay->work >= 0;
   const bool enums =
       Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
       Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
       Inside(static_cast<int>(lifted_friction), 0, 1) &&
-      Inside(static_cast<int>(step_policy), 0, 1);
+      Inside(static_cast<int>(acceleration), 0, 1) && Inside(static_cast<int>(step_policy), 0, 1);
   const bool counts = k_gs >= 1 && k_sm >= 0 && max_sweeps >= 0 && min_sweeps >= 0 &&
                       Inside(threads, 1, kMostThreads) && refinements >= 1;
   const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&

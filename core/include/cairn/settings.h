@@ -48,6 +48,15 @@ enum class LiftedFriction {
   kHold,     ///< It keeps its last impulse, as Bullet's sequential impulses do.
 };
 
+/// Whether sweeps build on each other.
+enum class Acceleration {
+  kNone,
+  /// Nonsmooth nonlinear conjugate gradients (Silcowitz-Niebe and Erleben 2010): before a sweep the
+  /// state moves on along what the last ones changed. One such sweep is worth several, see
+  /// docs/benchmarks.md.
+  kNncg,
+};
+
 /// How hard to try. Plain data; Solve() rejects values out of range (Status::kBadSettings).
 struct Settings {
   Method method = Method::kPgsSm;
@@ -86,6 +95,9 @@ struct Settings {
   /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
   double omega = 1;
   LiftedFriction lifted_friction = LiftedFriction::kRelease;
+  /// Of sweeps of Method::kPgsSm in a contact problem that is swept in colours; elsewhere sweeps
+  /// are what their names say.
+  Acceleration acceleration = Acceleration::kNncg;
 
   StepPolicy step_policy = StepPolicy::kMeasured;
   /// Proximal term of a subspace step on rows with bounds, relative to the diagonal of the row,

@@ -6,11 +6,24 @@
 #include <utility>
 
 namespace cairn {
+namespace {
+
+/// Energies are summed as whole numbers of this many bits, of which doubles hold the sum of eight
+/// million exactly: in whatever order lanes come, an island has the same sum.
+constexpr int kEnergyBits = 30;
+
+/// Brings the largest number of a sum to that many bits.
+double ScaleOf(double largest) {
+  const bool scalable = largest > 0 && std::isfinite(largest);
+  return scalable ? std::ldexp(1.0, kEnergyBits - 1 - std::ilogb(largest)) : 1;
+}
+
+}  // namespace
 
 /// So many sweeps, or one measurement, as work in stages.
 class BlockSweeps::Pass final : public StagedWork {
  public:
-  enum class Kind { kSweeps, kMeasure };
+  enum class Kind { kSweeps, kWholeSweeps, kMeasure };
 
   /// @p price: of a row, in work units.
   Pass(const BlockSweeps& sweeps, Kind kind, std::span<const GroupSweeps> groups, int count,
@@ -39,7 +52,7 @@ class BlockSweeps::Pass final : public StagedWork {
   bool GoOn(int stage) override {
     ChargeLast();
     const int sweeps = made_ + stage / stages_of_sweep();
-    const bool must = kind_ == Kind::kMeasure || sweeps < sweeps_.settings_.min_sweeps;
+    const bool must = kind_ != Kind::kSweeps || sweeps < sweeps_.settings_.min_sweeps;
     if (sweeps_.meter_->spent() && !must) return false;
     const double left = must ? kInfinity : sweeps_.meter_->work_left();
     PlanStage(StageOf(stage), left);
@@ -87,14 +100,23 @@ class BlockSweeps::Pass final : public StagedWork {
 };
 
 bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
-  meter_->Begin();
   Pass pass(*this, Pass::Kind::kSweeps, groups, count, 1);
-  crew_->Run(&pass);
-  const int made = pass.Finish();
+  return Run(&pass, groups) == count;
+}
+
+void BlockSweeps::SweepWhole(std::span<GroupSweeps> groups) {
+  Pass pass(*this, Pass::Kind::kWholeSweeps, groups, 1, 1);
+  Run(&pass, groups);
+}
+
+int BlockSweeps::Run(Pass* pass, std::span<GroupSweeps> groups) {
+  meter_->Begin();
+  crew_->Run(pass);
+  const int made = pass->Finish();
   for (GroupSweeps& group : groups) {
     if (group.active) group.sweeps += made;
   }
-  return made == count;
+  return made;
 }
 
 void BlockSweeps::Measure(std::span<const GroupSweeps> groups) {
@@ -110,38 +132,40 @@ void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
   pass.Finish();
 }
 
-Residual BlockSweeps::ErrorOf(const Group& group) const {
-  float most = 0, most_angular = 0;
-  double energy = 0;
-  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    const simd::BlockError& error = frame_->errors()[b];
-    for (int lane = 0; lane < frame_->plan().blocks()[b].lanes; ++lane) {
-      most = std::max(most, error.max.lane[lane]);
-      most_angular = std::max(most_angular, error.max_angular.lane[lane]);
-      energy += static_cast<double>(error.energy.lane[lane]);
-    }
-  }
-  return {most, most_angular, std::sqrt(energy)};
-}
-
 void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const {
   const Plan& plan = frame_->plan();
+  const std::span<double> scales = frame_->scales();
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
-  if (islands.size() == 1) {
-    residuals[islands[0]] = ErrorOf(group);
-    return;
-  }
   for (int island : islands) residuals[island] = {};
+  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
+    Residual& residual = residuals[island];
+    residual.max = std::max<double>(residual.max, error.max.lane[lane]);
+    residual.max_angular = std::max<double>(residual.max_angular, error.max_angular.lane[lane]);
+    residual.energy = std::max<double>(residual.energy, error.energy.lane[lane]);
+  });
+  for (int island : islands) {
+    scales[island] = ScaleOf(residuals[island].energy);
+    residuals[island].energy = 0;
+  }
+  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
+    const double energy = static_cast<double>(error.energy.lane[lane]);
+    residuals[island].energy += std::floor(energy * scales[island]);
+  });
+  for (int island : islands) {
+    residuals[island].energy = std::sqrt(residuals[island].energy / scales[island]);
+  }
+}
+
+template <class Function>
+void BlockSweeps::ForLanes(const Group& group, const Function& function) const {
+  const Plan& plan = frame_->plan();
+  const int only = group.islands == 1 ? plan.islands_of_groups()[group.first_island] : -1;
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
     const simd::BlockError& error = frame_->errors()[b];
     for (int lane = 0; lane < plan.blocks()[b].lanes; ++lane) {
-      Residual& residual = residuals[plan.island_of(b, lane)];
-      residual.max = std::max<double>(residual.max, error.max.lane[lane]);
-      residual.max_angular = std::max<double>(residual.max_angular, error.max_angular.lane[lane]);
-      residual.energy += static_cast<double>(error.energy.lane[lane]);
+      function(error, lane, only >= 0 ? only : plan.island_of(b, lane));
     }
   }
-  for (int island : islands) residuals[island].energy = std::sqrt(residuals[island].energy);
 }
 
 }  // namespace cairn

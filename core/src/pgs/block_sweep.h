@@ -30,6 +30,8 @@ class BlockSweeps {
   /// Makes @p count sweeps, the last one measured (BlockFrame::errors()). False if the budget ended
   /// first: what is done stays, a valid state, and complete sweeps count.
   bool Sweep(int count, std::span<GroupSweeps> groups);
+  /// One measured sweep, to its end.
+  void SweepWhole(std::span<GroupSweeps> groups);
 
   /// Natural residuals of the active groups, into BlockFrame::errors().
   void Measure(std::span<const GroupSweeps> groups);
@@ -42,8 +44,12 @@ class BlockSweeps {
 
  private:
   class Pass;
+  /// Returns how many sweeps were made.
+  int Run(Pass* pass, std::span<GroupSweeps> groups);
   void MeasureAt(double price, std::span<const GroupSweeps> groups);
-  Residual ErrorOf(const Group& group) const;
+  /// function(errors of a block, lane, its island)
+  template <class Function>
+  void ForLanes(const Group& group, const Function& function) const;
 
   BlockFrame* frame_;
   const Settings& settings_;

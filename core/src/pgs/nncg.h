@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "block_frame.h"
+#include "crew.h"
+#include "pgs/block_sweep.h"
+
+namespace cairn {
+
+/// Nonsmooth nonlinear conjugate gradients over sweeps (Silcowitz-Niebe and Erleben 2010): before a
+/// sweep the state is moved on along what the last ones changed, by the ratio of squared steps that
+/// Fletcher and Reeves give; where steps grow, an island starts anew. Other than there and in
+/// Bullet, steps are measured in energy, so that light bodies do not drown among heavy ones, and
+/// what is moved out of its bounds is brought back by the sweep that has to follow.
+///
+/// u is moved along with the impulses, which costs no product with G.
+class Nncg {
+ public:
+  /// What moving on costs, in sweeps.
+  static constexpr double kSweeps = 0.3;
+
+  /// A frame that has begun.
+  void Begin(const BlockFrame& frame);
+  /// The state of an island was changed by something else: it has no direction.
+  void Forget(int island);
+  /// Likewise islands of rows that take part in so many sweeps and no more: they are not to be
+  /// moved, as no sweep would bring them back into their bounds.
+  void ForgetWhereRowsEnd(int sweeps);
+  void ForgetAll();
+  /// What the last sweep changed on an island [sqrt(J)], see Residual::energy.
+  void See(int island, double energy);
+  /// Moves the state of the active groups on. A whole sweep has to follow.
+  void MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame);
+
+ private:
+  class Pass;
+  void FindEnds(const Plan& plan);
+  /// One number for each part of the state.
+  struct State {
+    std::vector<simd::Line> x;
+    std::vector<simd::BodyLane> bodies;
+  };
+
+  /// How an island goes on along its direction.
+  struct Way {
+    float beta = 0;     ///< so much further
+    float keep = 0;     ///< 0 where the direction is to be forgotten, else 1
+    double energy = 0;  ///< of the last sweep; 0 if there was none
+  };
+  std::vector<Way> ways_;  ///< by island
+  /// Rows of an island do not take part in further sweeps than that.
+  struct End {
+    int sweeps, island;
+    friend auto operator<=>(const End&, const End&) = default;
+  };
+  std::vector<End> ends_;  ///< of the plan
+  int plan_number_ = -1;
+  bool known_ = false;  ///< last_ is a state of this frame
+  State last_, direction_;
+};
+
+}  // namespace cairn
