@@ -157,12 +157,21 @@ bool BlockCycle::Sweep(int count) {
 void BlockCycle::LearnWays() {
   const Plan& plan = frame_->plan();
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (made_[plan.islands()[i].group].active) nncg_.See(i, after_[i].energy);
+    if (!made_[plan.islands()[i].group].active) continue;
+    // what a step leaves behind is rough, and wants to be smoothed, not carried on
+    if (states_[i].stepped) {
+      nncg_.Forget(i);
+    } else {
+      nncg_.See(i, after_[i].energy);
+    }
   }
   nncg_.ForgetWhereRowsEnd(SweepsMade());
 }
 
 bool BlockCycle::MoveOn() {
+  const bool all_stepped = std::all_of(states_.begin(), states_.end(),
+                                       [](const IslandState& island) { return island.stepped; });
+  if (all_stepped) return false;
   double rows = 0;
   for (size_t g = 0; g < made_.size(); ++g) {
     if (made_[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);

@@ -160,7 +160,7 @@ TEST(ObjectContract, ImpulsesOfPointsAreBulletsWithEitherNumberOfDirections) {
                                  point.m_lateralFrictionDir1.z(), point.m_lateralFrictionDir2.x()};
     };
     btSequentialImpulseConstraintSolver bullets;
-    bullet::ConstraintSolver ours({.k_sm = 0});
+    bullet::ConstraintSolver ours({.k_sm = 0, .acceleration = Acceleration::kNone});
     const auto expected = impulses_with(&bullets), actual = impulses_with(&ours);
     for (size_t i = 0; i < expected.size(); ++i) {
       EXPECT_NEAR(actual[i], expected[i], 1e-5) << i << " in mode " << mode;  // sweeps in floats

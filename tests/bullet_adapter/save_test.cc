@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "cairn/bullet/constraint_solver.h"
@@ -50,6 +51,7 @@ class Snapshot {
     btDispatcher* const dispatcher = world->bullet()->getDispatcher();
     for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
       const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(i);
+      bodies_of_manifolds_.push_back(BodiesOf(manifold));
       counts_.push_back(manifold.getNumContacts());
       for (int k = 0; k < counts_.back(); ++k) points_.push_back(manifold.getContactPoint(k));
     }
@@ -61,6 +63,10 @@ class Snapshot {
     LoadBodies(bodies_, world);
     btDispatcher* const dispatcher = world->bullet()->getDispatcher();
     if (dispatcher->getNumManifolds() != static_cast<int>(counts_.size())) return false;
+    for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
+      const auto now = BodiesOf(*dispatcher->getManifoldByIndexInternal(i));
+      if (now != bodies_of_manifolds_[i]) return false;
+    }
     auto point = points_.begin();
     for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
       btPersistentManifold* const manifold = dispatcher->getManifoldByIndexInternal(i);
@@ -72,7 +78,13 @@ class Snapshot {
   }
 
  private:
+  using TwoBodies = std::pair<const btCollisionObject*, const btCollisionObject*>;
+  static TwoBodies BodiesOf(const btPersistentManifold& manifold) {
+    return {manifold.getBody0(), manifold.getBody1()};
+  }
+
   std::vector<BodyState> bodies_;
+  std::vector<TwoBodies> bodies_of_manifolds_;
   std::vector<int> counts_;
   std::vector<btManifoldPoint> points_;  ///< of all manifolds, in order
   std::vector<bool> enabled_;
