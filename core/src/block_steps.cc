@@ -94,7 +94,9 @@ double BlockSteps::PriceOfPrice(int group, std::span<const int> islands) {
       (!precisions.some_double || SystemOf<double>(group).IsPreparedFor(plan, group)) &&
       (precisions.all_double || SystemOf<float>(group).IsPreparedFor(plan, group));
   if (known) return 0;
-  return kAnalyseRow * static_cast<double>(frame_->plan().groups()[group].rows);
+  // graphs change, but rarely what a step on them takes
+  const double row = kAnalyseRow + MemoryOf(islands[0])->price_of_row();
+  return row * static_cast<double>(frame_->plan().groups()[group].rows);
 }
 
 BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) const {
@@ -105,8 +107,11 @@ BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) co
 
 double BlockSteps::Price(int group, std::span<const int> islands, int factorisations) {
   const Precisions precisions = PrecisionsOf(islands);
-  return (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
-         (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
+  const double price = (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
+                       (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
+  const double rows = static_cast<double>(frame_->plan().groups()[group].rows);
+  MemoryOf(islands[0])->RememberPrice(price / (factorisations * rows));
+  return price;
 }
 
 template <class T>

@@ -28,7 +28,8 @@ class BlockSteps {
   /// Whether no step failed on the island of late.
   bool Due(int island);
   /// What a step with so many factorisations costs on some islands of a group, in relaxations of
-  /// rows by kernels; what asking may cost.
+  /// rows by kernels; what asking may cost, and what is known of the answer: it is not worth asking
+  /// where that does not fit.
   double Price(int group, std::span<const int> islands, int factorisations);
   double PriceOfPrice(int group, std::span<const int> islands);
   /// The island is left alone for a while: steps are too dear there.

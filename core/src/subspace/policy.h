@@ -40,6 +40,11 @@ class IslandMemory {
   void Accepted(double least = 1);
   void Restored();
 
+  /// What a factorisation and its step last cost here, for each row, in the units of the caller; 0
+  /// if that is not known.
+  double price_of_row() const { return price_of_row_; }
+  void RememberPrice(double of_row) { price_of_row_ = of_row; }
+
   BodySystem& system() { return system_; }
   /// For steps on blocks: of the group whose first island this is.
   template <class T>
@@ -51,8 +56,9 @@ class IslandMemory {
   std::unique_ptr<BlockSystem<double>> double_system_;
   double softening_ = 1;  ///< factor on Settings::proximal
   double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
-  int strikes_ = 0;       ///< rejections in a row
-  int pause_ = 0;         ///< opportunities still to be passed over
+  double price_of_row_ = 0;
+  int strikes_ = 0;  ///< rejections in a row
+  int pause_ = 0;    ///< opportunities still to be passed over
 };
 
 }  // namespace cairn
