@@ -46,6 +46,11 @@ class BodyTable {
   std::span<const Body> bodies() const { return bodies_; }
   const Motion& motion(int number) const { return motions_[number]; }
   btRigidBody& rigid(int number) const { return *rigids_[number]; }
+  /// Before the velocity of a body is written.
+  void PrefetchVelocity(int number) const {
+    __builtin_prefetch(&rigids_[number]->getLinearVelocity(), 1);
+    __builtin_prefetch(&rigids_[number]->getAngularVelocity() + 1, 1);
+  }
   /// Whether impulses move it; not so for kWorld.
   bool reacts(int number) const { return number != kWorld && bodies_[number].inv_mass > 0; }
 

@@ -134,7 +134,13 @@ void ContactPoints::AppendPoint(const Ends& ends, btManifoldPoint* source) {
 void ContactPoints::Write() const {
   const bool warm_starts = (info_.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const bool both = like_.tangents > 1;
+  constexpr size_t kAhead = 12;
   for (size_t i = 0; i < sources_.size(); ++i) {
+    if (i + kAhead < sources_.size()) {
+      const btManifoldPoint& later = *sources_[i + kAhead];
+      __builtin_prefetch(&later.m_appliedImpulse, 1);
+      __builtin_prefetch(&later.m_lateralFrictionDir2, 1);
+    }
     btManifoldPoint& point = *sources_[i];
     const ContactImpulse& impulse = impulses_[i];
     const float* const t1 = impulse.direction;

@@ -7,14 +7,22 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
 
+void PrefetchObject(const btCollisionObject& object) {
+  const auto* const begin = reinterpret_cast<const char*>(&object);
+  __builtin_prefetch(begin + 64);   // where it is
+  __builtin_prefetch(begin + 192);  // its friction, and its index in the world
+}
+
 /// Manifolds lie all over the memory, and most of a large world are empty: how many points they
-/// have is asked for some ahead, their points a little ahead.
+/// have is asked for some ahead, their points and bodies a little ahead.
 void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) {
   constexpr size_t kFar = 16, kNear = 4;
   if (i + kFar < manifolds.size()) __builtin_prefetch(&manifolds[i + kFar]->m_companionIdA);
   if (i + kNear >= manifolds.size()) return;
   const btPersistentManifold& near = *manifolds[i + kNear];
   if (near.getNumContacts() == 0) return;
+  PrefetchObject(*near.getBody0());
+  PrefetchObject(*near.getBody1());
   const auto* const begin = reinterpret_cast<const char*>(&near.getContactPoint(0));
   const size_t size = near.getNumContacts() * sizeof(btManifoldPoint);
   for (size_t at = 0; at < size; at += 64) __builtin_prefetch(begin + at);

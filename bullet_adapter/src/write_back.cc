@@ -64,7 +64,9 @@ void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info) {
 
 void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
                  const SplitImpulse& pushes, const btContactSolverInfo& info) {
+  constexpr int kAhead = 6;
   for (int i = 0; i < bodies.size(); ++i) {
+    if (i + kAhead < bodies.size()) bodies.PrefetchVelocity(i + kAhead);
     if (!bodies.reacts(i)) continue;
     const Motion& motion = bodies.motion(i);
     btRigidBody& rigid = bodies.rigid(i);
