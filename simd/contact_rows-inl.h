@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "simd/contact_rows.h"
+#include "simd/lane_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {
@@ -22,94 +23,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kMost = 1e18f, kLeast = 1e-18f;
 /// Points that slide slower have no direction [m^2/s^2].
 constexpr float kLeastSlide = 1.1920929e-7f;
-constexpr float kRootHalf = 0.70710678f;
-
-/// Four numbers of every lane from @p number on.
-HWY_INLINE void TransposeFour(const float* const* from, int number, Line* to) {
-#if HWY_TARGET == HWY_SCALAR
-  for (int l = 0; l < kLanes; ++l) {
-    for (int k = 0; k < 4; ++k) to[k].lane[l] = from[l][number + k];
-  }
-#else
-  const hn::FixedTag<float, 4> d;
-  for (int l = 0; l < kLanes; l += 4) {
-    const auto r0 = hn::LoadU(d, from[l] + number), r1 = hn::LoadU(d, from[l + 1] + number);
-    const auto r2 = hn::LoadU(d, from[l + 2] + number), r3 = hn::LoadU(d, from[l + 3] + number);
-    const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
-    const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
-    hn::Store(hn::InterleaveLower(d, xy02, xy13), d, to[0].lane + l);
-    hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, to[1].lane + l);
-    hn::Store(hn::InterleaveLower(d, zw02, zw13), d, to[2].lane + l);
-    hn::Store(hn::InterleaveUpper(d, zw02, zw13), d, to[3].lane + l);
-  }
-#endif
-}
-
-using D = hn::CappedTag<float, kLanes>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
-
-HWY_INLINE V Set(float value) { return hn::Set(D(), value); }
-HWY_INLINE V Load(const Line& line, int l) { return hn::Load(D(), line.lane + l); }
-HWY_INLINE void Store(V v, Line* line, int l) { hn::Store(v, D(), line->lane + l); }
-
-/// A vector in space, for as many lanes as a register holds.
-struct Vector {
-  V x, y, z;
-};
-HWY_INLINE Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-HWY_INLINE Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-HWY_INLINE Vector operator*(V s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
-HWY_INLINE Vector Scale(Vector a, Vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-HWY_INLINE V Dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-HWY_INLINE Vector Cross(Vector a, Vector b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE Vector Where(M which, Vector a, Vector b) {
-  return {hn::IfThenElse(which, a.x, b.x), hn::IfThenElse(which, a.y, b.y),
-          hn::IfThenElse(which, a.z, b.z)};
-}
-HWY_INLINE Vector At(const Line* lines, int l) {
-  return {Load(lines[0], l), Load(lines[1], l), Load(lines[2], l)};
-}
-HWY_INLINE void Put(Vector v, Line* lines, int l) {
-  Store(v.x, lines, l);
-  Store(v.y, lines + 1, l);
-  Store(v.z, lines + 2, l);
-}
-
-/// A unit vector across a unit vector: the first axis of its plane, of which n x it is the second.
-HWY_INLINE Vector FirstAxis(Vector n) {
-  const V zero = hn::Zero(D());
-  const M steep = hn::Gt(hn::Abs(n.z), Set(kRootHalf));
-  const V other = hn::IfThenElse(steep, n.z, n.x);
-  const V k = Set(1) / hn::Sqrt(n.y * n.y + other * other);
-  return Where(steep, {zero, zero - n.z * k, n.y * k}, {zero - n.y * k, n.x * k, zero});
-}
-
-/// A direction in a plane as one number, without trigonometry: its place on the square
-/// |x| + |y| = 1, from 1 at (1, 0) counter-clockwise to 5.
-HWY_INLINE V ToHeading(V x, V y) {
-  const V along = x / (hn::Abs(x) + hn::Abs(y));
-  return hn::IfThenElse(hn::Ge(y, hn::Zero(D())), Set(2) - along, Set(4) + along);
-}
-
-/// A direction in a plane.
-struct Heading {
-  V x, y;
-  M known;  ///< else it is (1, 0), and the second direction is the second axis
-};
-HWY_INLINE Heading FromHeading(V heading) {
-  const V one = Set(1), zero = hn::Zero(D());
-  const M upper = hn::Lt(heading, Set(3));
-  const V x = hn::IfThenElse(upper, Set(2) - heading, heading - Set(4));
-  const V left = one - hn::Abs(x);
-  const V y = hn::IfThenElse(upper, left, zero - left);
-  const M known = hn::And(hn::Ge(heading, one), hn::Le(heading, Set(5)));
-  const V length = hn::Sqrt(hn::IfThenElse(known, x * x + y * y, one));
-  return {hn::IfThenElse(known, x / length, one), hn::IfThenElse(known, y / length, zero), known};
-}
 
 /// The bodies of all lanes, ContactBody by number.
 struct Bodies {
@@ -142,6 +55,16 @@ struct Point {
   Line wanted;    ///< along the normal, relative to the velocity without constraints
   Line x[3];      ///< start impulses
 };
+
+/// What resists turning at one point of all lanes.
+struct Twist {
+  Line number[kTwistNumbers];
+  Line start[kTwistRows];
+  Line axis[kTwistRows][3];
+};
+
+/// What the rows of a point do to its bodies.
+enum class Acts { kPush, kTurn };
 
 template <PairForm form>
 class Packer {
@@ -179,6 +102,12 @@ class Packer {
       if (lanes_.tangents > 1) PutFriction(points[p], points[p].t2, points[p].x[2], x + 1);
       for (int k = 0; k < 3; ++k) directions[kDirectionLines * p + k] = points[p].t1[k];
       directions[kDirectionLines * p + 3] = points[p].heading;
+    }
+    Line* x = x_ + lanes_.points * (1 + lanes_.tangents);
+    for (int p = 0; p < lanes_.points && lanes_.twists; ++p) {
+      Twist twist;
+      ReadTwist(p, points[p], &twist);
+      for (int k = 0; k < kTwistRows; ++k) PutTwist(points[p], twist, k, x++);
     }
     return fits_;
   }
@@ -253,8 +182,42 @@ class Packer {
     Demand(hn::And(positive(friction), positive(Load(point->number[kRestitution], l))));
   }
 
-  /// Writes G of one direction; returns |G|^2.
-  HWY_INLINE V PutJacobian(const Point& point, Vector d, int l) {
+  void ReadTwist(int p, const Point& point, Twist* twist) const {
+    const float* numbers[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      numbers[l] = lanes_.twist[l] + p * kTwistNumbers;
+      const float* const start = lanes_.twist_start[l] + p * kTwistRows;
+      for (int k = 0; k < kTwistRows; ++k) twist->start[k].lane[l] = start[k];
+    }
+    TransposeFour(numbers, 0, twist->number);
+    for (int l = 0; l < kLanes; l += kWidth) {
+      const Vector n = At(point.number + kNormal, l), axis = At(point.axis, l);
+      Put(n, twist->axis[0], l);
+      Put(axis, twist->axis[1], l);
+      Put(Cross(n, axis), twist->axis[2], l);
+    }
+  }
+
+  /// Writes G of one axis to turn about; returns |G|^2.
+  HWY_INLINE V PutTurning(Vector d, int l) {
+    const V zero = hn::Zero(D());
+    const Vector none{zero, zero, zero};
+    Put(none, out_, l);
+    if constexpr (form == PairForm::kSingle) {
+      const Vector turn = moving_.Whiten(Load(sign_, l) * d, l);
+      Put(turn, out_ + 3, l);
+      return Dot(turn, turn);
+    } else {
+      const Vector turn_a = a_.Whiten(d, l), turn_b = b_.Whiten(Set(-1) * d, l);
+      Put(turn_a, out_ + 3, l);
+      if constexpr (form == PairForm::kJoint) Put(none, out_ + 6, l);
+      Put(turn_b, out_ + JacobianLines(form) - 3, l);
+      return Dot(turn_a, turn_a) + Dot(turn_b, turn_b);
+    }
+  }
+
+  /// Writes G of one direction to push along; returns |G|^2.
+  HWY_INLINE V PutPushing(const Point& point, Vector d, int l) {
     const Vector arm_a = At(point.number + kArmA, l), arm_b = At(point.number + kArmB, l);
     if constexpr (form == PairForm::kSingle) {
       const V sign = Load(sign_, l);
@@ -276,14 +239,14 @@ class Packer {
   }
 
   /// G, target and step of one row; wanted(direction, l): its target.
-  template <class Wanted>
+  template <Acts acts = Acts::kPush, class Wanted>
   HWY_INLINE void PutRow(const Point& point, const Line* direction, const Line* compliance,
                          const Wanted& wanted) {
     const V zero = hn::Zero(D()), one = Set(1), most = Set(kMost);
     Line* const behind = out_ + JacobianLines(form);
     for (int l = 0; l < kLanes; l += kWidth) {
       const Vector d = At(direction, l);
-      V diagonal = PutJacobian(point, d, l);
+      V diagonal = acts == Acts::kPush ? PutPushing(point, d, l) : PutTurning(d, l);
       if (compliance != nullptr) diagonal = diagonal + Load(*compliance, l);
       const M satisfiable = hn::Gt(diagonal, zero);
       const V target = wanted(d, l);
@@ -312,6 +275,30 @@ class Packer {
            [&](Vector d, int l) HWY_ATTR { return hn::Zero(D()) - Dot(d, At(point.slide, l)); });
     *out_++ = point.number[kFriction];
     *x = start;
+  }
+
+  /// About axis @p k, with its start impulse inside its bounds.
+  void PutTwist(const Point& point, const Twist& twist, int k, Line* x) {
+    PutRow<Acts::kTurn>(point, twist.axis[k], nullptr, [&](Vector d, int l) HWY_ATTR {
+      const bool before = lanes_.spin_before_torques;
+      const Vector spin_a = before ? a_.start_spin(l) : a_.free_spin(l);
+      const Vector spin_b = before ? b_.start_spin(l) : b_.free_spin(l);
+      return hn::Zero(D()) - Dot(d, spin_a - spin_b);
+    });
+    const int kind = k == 0 ? 0 : 1;
+    for (int l = 0; l < kLanes; l += kWidth) {
+      const V zero = hn::Zero(D()), start = Load(twist.start[k], l);
+      const V coefficient = Load(twist.number[kind], l);
+      const V most = Load(twist.number[kMostSpinning + kind], l);
+      const V bound = hn::Min(coefficient * Load(point.x[0], l), most);
+      Store(coefficient, out_, l);
+      Store(zero - most, out_ + 1, l);
+      Store(most, out_ + 2, l);
+      Store(hn::Min(hn::Max(start, zero - bound), bound) + zero, x, l);
+      Demand(hn::And(hn::Le(hn::Abs(start), Set(kMost)), hn::Ge(most, zero)));
+      Demand(hn::And(hn::Ge(coefficient, zero), hn::Le(coefficient, Set(kMost))));
+    }
+    out_ += BoundLines(RowBound::kCutFriction);
   }
 
   const ContactLanes& lanes_;

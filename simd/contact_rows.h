@@ -31,6 +31,9 @@ enum PointNumber {
 /// Numbers of a start impulse that are read: normal, two tangential ones, heading of the first; and
 /// how many lie between one point and the next.
 inline constexpr int kStartNumbers = 4, kStartStride = 7;
+/// Numbers of what resists turning at a point: coefficients, and what it gives at most, of spinning
+/// first; and its rows, each with one start impulse.
+inline constexpr int kTwistNumbers = 4, kMostSpinning = 2, kTwistRows = 3;
 /// Lines that are kept of a point with friction: direction and heading of t1.
 inline constexpr int kDirectionLines = 4;
 
@@ -41,7 +44,7 @@ inline constexpr int kMostPoints = 4;
 struct ContactLanes {
   PairForm form;
   int points, tangents;
-  bool soft;
+  bool soft, twists;
   float bounce_speed;
   bool spin_before_torques;
   const ContactBody* a[kLanes] = {};
@@ -50,12 +53,16 @@ struct ContactLanes {
   bool second_moves[kLanes] = {};
   const float* point[kLanes] = {};  ///< kPointNumbers numbers a point, one after the other
   const float* start[kLanes] = {};  ///< a point every kStartStride numbers
+  /// Likewise, kTwistNumbers and kTwistRows numbers a point, if there are twists.
+  const float* twist[kLanes] = {};
+  const float* twist_start[kLanes] = {};
 };
 
 /// Writes the lines of the pair and of its rows: the normals of all points, then the friction of
-/// each. @p x: start impulses, one line a row, inside their bounds. @p directions: t1, three lines
-/// a point, if there is friction. False if a number is not finite or does not fit a float with its
-/// square, or if a coefficient is negative. Same bits on every target.
+/// each, then what resists turning. @p x: start impulses, one line a row, inside their bounds. @p
+/// directions: t1, three lines a point, if there is friction. False if a number is not finite or
+/// does not fit a float with its square, or if a coefficient is negative. Same bits on every
+/// target.
 using ContactRowsKernel = bool (*)(const ContactLanes& lanes, Line* out, Line* x, Line* directions);
 
 /// @pre the CPU supports it

@@ -13,7 +13,14 @@ void AddressIndex::Clear() {
 }
 
 int AddressIndex::Find(const void* address) {
-  if (next_ < addresses_.size() && addresses_[next_] == address) return static_cast<int>(next_++);
+  // what has ended since is passed over
+  constexpr std::size_t kAhead = 8;
+  const std::size_t end = std::min(addresses_.size(), next_ + kAhead);
+  for (std::size_t place = next_; place < end; ++place) {
+    if (addresses_[place] != address) continue;
+    next_ = place + 1;
+    return static_cast<int>(place);
+  }
   if (sorted_.empty()) {
     for (const void* known : addresses_) {
       sorted_.emplace_back(reinterpret_cast<std::uintptr_t>(known),

@@ -13,8 +13,9 @@ void Put(const btVector3& from, float* to) {
   to[2] = static_cast<float>(from.z());
 }
 
-bool HasAnisotropicFriction(const btCollisionObject& object) {
-  return object.hasAnisotropicFriction(btCollisionObject::CF_ANISOTROPIC_FRICTION);
+bool EitherIsAnisotropic(const btPersistentManifold& manifold, int mode) {
+  return manifold.getBody0()->hasAnisotropicFriction(mode) ||
+         manifold.getBody1()->hasAnisotropicFriction(mode);
 }
 
 }  // namespace
@@ -24,6 +25,8 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   manifolds_.clear();
   points_.clear();
   impulses_.clear();
+  twists_.clear();
+  twist_impulses_.clear();
   sources_.clear();
   info_ = info;
   start_ = start;
@@ -37,9 +40,26 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   takes_any_ = by_velocity && info.m_sor == 1;
 }
 
-bool ContactPoints::IsPlain(const btPersistentManifold& manifold) const {
-  return !HasAnisotropicFriction(*manifold.getBody0()) &&
-         !HasAnisotropicFriction(*manifold.getBody1());
+void ContactPoints::End() {
+  if (twists_.empty()) return;
+  twists_.resize(points_.size());
+  twist_impulses_.resize(points_.size());
+}
+
+ContactPoints::Kind ContactPoints::KindOf(const btPersistentManifold& manifold) const {
+  using Object = btCollisionObject;
+  if (!takes_any_ || EitherIsAnisotropic(manifold, Object::CF_ANISOTROPIC_FRICTION)) {
+    return Kind::kNotTaken;
+  }
+  bool rolls = false;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& point = manifold.getContactPoint(i);
+    if (!IsPlain(point)) return Kind::kNotTaken;
+    rolls = rolls || point.m_combinedRollingFriction > 0;
+  }
+  if (!rolls) return Kind::kPlain;
+  return EitherIsAnisotropic(manifold, Object::CF_ANISOTROPIC_ROLLING_FRICTION) ? Kind::kNotTaken
+                                                                                : Kind::kRolling;
 }
 
 bool ContactPoints::IsPlain(const btManifoldPoint& point) const {
@@ -47,19 +67,18 @@ bool ContactPoints::IsPlain(const btManifoldPoint& point) const {
       (info_.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0 &&
       (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) != 0;
   const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
-  return !by_user && !anchored && !(point.m_combinedRollingFriction > 0);
+  return !by_user && !anchored;
 }
 
 bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
                            SplitImpulse* pushes) {
   const int count = manifold->getNumContacts();
   if (count == 0) return true;
-  if (!takes_any_ || !IsPlain(*manifold)) return false;
-  for (int i = 0; i < count; ++i) {
-    if (!IsPlain(manifold->getContactPoint(i))) return false;
-  }
+  const Kind kind = KindOf(*manifold);
+  if (kind == Kind::kNotTaken) return false;
 
   Manifold next = like_;
+  next.twists = kind == Kind::kRolling;
   next.body_a = bodies->Number(*manifold->getBody0());
   next.body_b = bodies->Number(*manifold->getBody1());
   if (!bodies->reacts(next.body_a) && !bodies->reacts(next.body_b)) return true;
@@ -71,6 +90,7 @@ bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
     btManifoldPoint& point = manifold->getContactPoint(i);
     if (!(point.getDistance() <= threshold)) continue;
     AppendPoint(ends, &point);
+    if (next.twists) AddTwist(point);
     if (IsPushed(point)) AddPush(ends, point, *bodies, pushes);
   }
   next.points = static_cast<std::int8_t>(static_cast<int>(points_.size()) - next.first_point);
@@ -129,6 +149,30 @@ void ContactPoints::AppendPoint(const Ends& ends, btManifoldPoint* source) {
                           : 0.0f},
        .heading = static_cast<float>(source->m_prevRHS)});
   sources_.push_back(source);
+}
+
+void ContactPoints::AddTwist(const btManifoldPoint& source) {
+  twists_.resize(points_.size());
+  twist_impulses_.resize(points_.size());
+  // spinning friction counts only together with rolling friction, and the coefficient is also the
+  // most that there is
+  if (!(source.m_combinedRollingFriction > 0)) return;
+  const auto rolling = static_cast<float>(source.m_combinedRollingFriction);
+  const auto spinning = static_cast<float>(btMax(btScalar(0), source.m_combinedSpinningFriction));
+  twists_.back() = {spinning, rolling, spinning, rolling};
+  if (start_.twists == nullptr || start_.friction == 0) return;
+  // rows of Bullet turn the second body
+  const TwistMemory::Impulses left = start_.twists->Find(source);
+  const auto start = [&](int k) { return static_cast<float>(-left[k] * start_.friction); };
+  twist_impulses_.back() = {.spinning = start(0), .rolling = {start(1), start(2)}};
+}
+
+void ContactPoints::Keep(TwistMemory* memory) const {
+  for (size_t i = 0; i < twists_.size(); ++i) {
+    if (!(twists_[i].rolling > 0)) continue;
+    const TwistImpulse& impulse = twist_impulses_[i];
+    memory->Keep(*sources_[i], {-impulse.spinning, -impulse.rolling[0], -impulse.rolling[1]});
+  }
 }
 
 void ContactPoints::Write() const {

@@ -18,13 +18,14 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
 /// The contacts of a group that the core takes as manifolds, with nothing written out as rows: all
-/// that are neither anisotropic, anchored, rolling or pushed apart, and whose directions of
-/// friction no user has set. The formulas are those of ContactRowBuilder, in the kernels of the
-/// core.
+/// that are neither anisotropic nor anchored, and whose directions of friction no user has set. The
+/// formulas are those of ContactRowBuilder, in the kernels of the core.
 class ContactPoints {
  public:
   /// Begins a group.
   void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactStart& start);
+  /// Ends it: no manifold follows.
+  void End();
   /// Appends a manifold, and its deep penetration to @p pushes. False if it has to be written out
   /// as rows: nothing was done.
   bool Append(btPersistentManifold* manifold, BodyTable* bodies, SplitImpulse* pushes);
@@ -34,15 +35,23 @@ class ContactPoints {
   /// One per point: the start, and after solving the result.
   std::span<ContactImpulse> impulses() { return impulses_; }
   std::span<const ContactImpulse> impulses() const { return impulses_; }
+  /// One per point, or none if nothing rolls.
+  std::span<const ContactTwist> twists() const { return twists_; }
+  std::span<TwistImpulse> twist_impulses() { return twist_impulses_; }
+  std::span<const TwistImpulse> twist_impulses() const { return twist_impulses_; }
   cairn::ContactLaw law() const { return law_; }
   /// Bullet's, one per point.
   std::span<btManifoldPoint* const> sources() const { return sources_; }
 
   /// Writes impulses and directions to the points of Bullet.
   void Write() const;
+  /// Adds what resists rolling to @p memory, once everything is written.
+  void Keep(TwistMemory* memory) const;
 
  private:
-  bool IsPlain(const btPersistentManifold& manifold) const;
+  /// Whether a manifold can be taken, and with what.
+  enum class Kind { kNotTaken, kPlain, kRolling };
+  Kind KindOf(const btPersistentManifold& manifold) const;
   bool IsPlain(const btManifoldPoint& point) const;
   struct Ends {
     int body_a, body_b;
@@ -50,6 +59,8 @@ class ContactPoints {
   };
   bool IsPushed(const btManifoldPoint& point) const;
   void AppendPoint(const Ends& ends, btManifoldPoint* source);
+  /// What resists rolling at the last point.
+  void AddTwist(const btManifoldPoint& source);
   void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
                SplitImpulse* pushes);
 
@@ -61,6 +72,8 @@ class ContactPoints {
   std::vector<Manifold> manifolds_;
   std::vector<ContactPoint> points_;
   std::vector<ContactImpulse> impulses_;
+  std::vector<ContactTwist> twists_;  ///< as many as there are points up to the last that rolls
+  std::vector<TwistImpulse> twist_impulses_;
   std::vector<btManifoldPoint*> sources_;
 };
 

@@ -16,8 +16,13 @@ void PrefetchObject(const btCollisionObject& object) {
 /// Manifolds lie all over the memory, and most of a large world are empty: how many points they
 /// have is asked for some ahead, their points and bodies a little ahead.
 void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) {
-  constexpr size_t kFar = 16, kNear = 4;
-  if (i + kFar < manifolds.size()) __builtin_prefetch(&manifolds[i + kFar]->m_companionIdA);
+  constexpr size_t kFar = 32, kNear = 4;
+  if (i + kFar < manifolds.size()) {
+    // the number of points is a little before it, maybe in another line
+    const int* const behind = &manifolds[i + kFar]->m_companionIdA;
+    __builtin_prefetch(behind - 4);
+    __builtin_prefetch(behind);
+  }
   if (i + kNear >= manifolds.size()) return;
   const btPersistentManifold& near = *manifolds[i + kNear];
   if (near.getNumContacts() == 0) return;
@@ -64,6 +69,7 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
     ReadManifold(manifold, info, start, &bodies_, &input);
     builder.Append(input);
   }
+  contacts_.End();
   FindMotions();
 }
 
@@ -87,7 +93,8 @@ ContactProblem FastGroup::problem() const {
           .manifolds = contacts_.manifolds(),
           .points = contacts_.points(),
           .contact_law = contacts_.law(),
-          .motions = motions_};
+          .motions = motions_,
+          .twists = contacts_.twists()};
 }
 
 std::vector<double> FastGroup::AllImpulses() const {
@@ -97,6 +104,11 @@ std::vector<double> FastGroup::AllImpulses() const {
     for (const ContactImpulse& point : points) all.push_back(point.normal);
     for (const ContactImpulse& point : points) {
       all.insert(all.end(), point.tangential, point.tangential + manifold.tangents);
+    }
+    if (!manifold.twists) continue;
+    const auto twists = contacts_.twist_impulses().subspan(manifold.first_point, manifold.points);
+    for (const TwistImpulse& twist : twists) {
+      all.insert(all.end(), {twist.spinning, twist.rolling[0], twist.rolling[1]});
     }
   }
   return all;
@@ -110,6 +122,7 @@ void FastGroup::Write(const btContactSolverInfo& info) {
   WriteBodies(bodies_, velocities_, pushes_, info);
   joint_memory_.Keep(group_);
   twist_memory_.Keep(group_);
+  contacts_.Keep(&twist_memory_);
 }
 
 void FastGroup::Forget() {

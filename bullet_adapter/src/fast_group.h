@@ -41,7 +41,11 @@ class FastGroup {
             const Options& options);
 
   ContactProblem problem() const;
-  Impulses impulses() { return {.rows = group_.impulses, .points = contacts_.impulses()}; }
+  Impulses impulses() {
+    return {.rows = group_.impulses,
+            .points = contacts_.impulses(),
+            .twists = contacts_.twist_impulses()};
+  }
   /// One number per row, those of manifolds last, as Measure() wants them.
   std::vector<double> AllImpulses() const;
   std::span<Velocity> velocities() { return velocities_; }

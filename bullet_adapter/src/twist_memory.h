@@ -22,8 +22,10 @@ class TwistMemory {
   void Begin() { index_.Rewind(); }
   /// What a point ended with, zeros if it is not remembered.
   Impulses Find(const btManifoldPoint& point);
-  /// Remembers a solved group, once its impulses are written to the points.
+  /// Remembers the rows of a solved group, once its impulses are written to the points.
   void Keep(const GroupProblem& group);
+  /// Remembers one more point, likewise.
+  void Keep(const btManifoldPoint& point, const Impulses& impulses);
   void Forget();
 
  private:

@@ -98,7 +98,8 @@ bool BlockFrame::SameManifolds(std::span<const Manifold> manifolds) const {
   // where their points are is not part of the plan
   const auto same = [](const Manifold& a, const Manifold& b) {
     return a.body_a == b.body_a && a.body_b == b.body_b && a.points == b.points &&
-           a.tangents == b.tangents && a.soft == b.soft && a.max_sweeps == b.max_sweeps;
+           a.tangents == b.tangents && a.soft == b.soft && a.twists == b.twists &&
+           a.max_sweeps == b.max_sweeps;
   };
   return std::equal(manifolds.begin(), manifolds.end(), planned_manifolds_.begin(),
                     planned_manifolds_.end(), same);

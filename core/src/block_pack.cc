@@ -305,7 +305,7 @@ PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulse
   for (int block = first_block; block < first_block + count; ++block) {
     const bool rows = plan.pair(block, 0).manifold == Pair::kNoManifold;
     const PackResult result = rows ? OneBlock(*this, block, blocks).Pack(impulses.rows)
-                                   : PackManifolds(*this, block, impulses.points, blocks);
+                                   : PackManifolds(*this, block, impulses, blocks);
     if (result != PackResult::kDone) return result;
   }
   return PackResult::kDone;
@@ -315,7 +315,7 @@ void BlockPacker::WriteImpulses(int first_block, int count, const BlockData& blo
                                 const Impulses& impulses) const {
   for (int i = first_block; i < first_block + count; ++i) {
     if (plan.pair(i, 0).manifold != Pair::kNoManifold) {
-      WriteManifolds(*this, i, blocks, impulses.points);
+      WriteManifolds(*this, i, blocks, impulses);
       continue;
     }
     const simd::PairBlock& block = plan.blocks()[i];

@@ -73,6 +73,7 @@ int ContactRows(const ContactProblem& problem) {
 struct ContactExpansion::Point {
   Vector3d direction[3];  ///< normal, t1, t2
   double target[3];
+  Vector3d unseen_spin;  ///< relative, of the bodies less what friction sees
 };
 
 ContactExpansion::ContactExpansion(const ContactProblem& problem, const Impulses& start)
@@ -82,7 +83,7 @@ ContactExpansion::ContactExpansion(const ContactProblem& problem, const Impulses
       first_(rows_.size()),
       manifolds_(problem.manifolds.begin(), problem.manifolds.end()) {
   for (const Manifold& manifold : manifolds_) {
-    Add(manifold, problem, start.points);
+    Add(manifold, problem, start);
   }
 }
 
@@ -118,17 +119,21 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
   const Velocity b_slides{b.free.linear,
                           law.spin_before_torques ? b.start.angular : b.free.angular};
   const Vector3d unseen = own - relative(a_slides, b_slides);
-  return {{n, t1, t2}, {point.bias + bounce + n.dot(own - free), t1.dot(unseen), t2.dot(unseen)}};
+  const Vector3d own_spin = MotionOf(bodies_, manifold.body_a).free.angular -
+                            MotionOf(bodies_, manifold.body_b).free.angular;
+  return {{n, t1, t2},
+          {point.bias + bounce + n.dot(own - free), t1.dot(unseen), t2.dot(unseen)},
+          own_spin - (a_slides.angular - b_slides.angular)};
 }
 
 void ContactExpansion::Add(const Manifold& manifold, const ContactProblem& problem,
-                           std::span<const ContactImpulse> start) {
+                           const Impulses& start) {
   std::vector<Row> frictions;
   std::vector<double> starts;
   const int first = static_cast<int>(rows_.size());
   for (int p = 0; p < manifold.points; ++p) {
     const ContactPoint& point = problem.points[manifold.first_point + p];
-    const ContactImpulse& last = start[manifold.first_point + p];
+    const ContactImpulse& last = start.points[manifold.first_point + p];
     const Point aimed = Aim(manifold, point, problem);
     const Vector3d arm_a = ToVector(point.arm_a), arm_b = ToVector(point.arm_b);
     const auto row = [&](int k) {
@@ -158,6 +163,34 @@ void ContactExpansion::Add(const Manifold& manifold, const ContactProblem& probl
   }
   rows_.insert(rows_.end(), frictions.begin(), frictions.end());
   impulses_.insert(impulses_.end(), starts.begin(), starts.end());
+  if (manifold.twists) AddTwists(manifold, problem, start.twists, first);
+}
+
+void ContactExpansion::AddTwists(const Manifold& manifold, const ContactProblem& problem,
+                                 std::span<const TwistImpulse> start, int first) {
+  for (int p = 0; p < manifold.points; ++p) {
+    const size_t index = static_cast<size_t>(manifold.first_point) + p;
+    const ContactTwist& twist = problem.twists[index];
+    const Point aimed = Aim(manifold, problem.points[index], problem);
+    const Vector3d& n = aimed.direction[0];
+    const Vector3d axes[] = {n, FirstAxis(n), n.cross(FirstAxis(n))};
+    const TwistImpulse& last = start[index];
+    const float starts[] = {last.spinning, last.rolling[0], last.rolling[1]};
+    for (int k = 0; k < Manifold::kTwistRows; ++k) {
+      const double most = k == 0 ? twist.most_spinning : twist.most_rolling;
+      rows_.push_back({.body_a = manifold.body_a,
+                       .body_b = manifold.body_b,
+                       .angular_a = axes[k],
+                       .angular_b = -axes[k],
+                       .target = axes[k].dot(aimed.unseen_spin),
+                       .lo = -most,
+                       .hi = most,
+                       .parent = first + p,
+                       .friction = k == 0 ? twist.spinning : twist.rolling,
+                       .max_sweeps = manifold.max_sweeps});
+      impulses_.push_back(starts[k]);
+    }
+  }
 }
 
 void ContactExpansion::Write(const Impulses& impulses) const {
@@ -178,6 +211,12 @@ void ContactExpansion::Write(const Impulses& impulses) const {
       for (int k = 0; k < 3; ++k) to.direction[k] = static_cast<float>(t1[k]);
       const Vector3d axis = FirstAxis(n);
       to.heading = static_cast<float>(ToHeading(t1.dot(axis), t1.dot(n.cross(axis))));
+    }
+    auto twist = friction + manifold.points * manifold.tangents;
+    for (int p = 0; p < manifold.points && manifold.twists; ++p) {
+      TwistImpulse& to = impulses.twists[manifold.first_point + p];
+      to.spinning = static_cast<float>(*twist++);
+      for (float& x : to.rolling) x = static_cast<float>(*twist++);
     }
     next += manifold.rows();
   }

@@ -26,8 +26,9 @@ class ContactExpansion {
   struct Directions {
     Eigen::Vector3d normal, t1;
   };
-  void Add(const Manifold& manifold, const ContactProblem& problem,
-           std::span<const ContactImpulse> start);
+  void Add(const Manifold& manifold, const ContactProblem& problem, const Impulses& start);
+  void AddTwists(const Manifold& manifold, const ContactProblem& problem,
+                 std::span<const TwistImpulse> start, int first);
   Point Aim(const Manifold& manifold, const ContactPoint& point,
             const ContactProblem& problem) const;
 

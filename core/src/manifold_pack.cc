@@ -22,6 +22,11 @@ static_assert(offsetof(ContactPoint, compliance) == simd::kCompliance * sizeof(f
 static_assert(sizeof(ContactImpulse) == simd::kStartStride * sizeof(float));
 static_assert(offsetof(ContactImpulse, heading) == 3 * sizeof(float));
 static_assert(Manifold::kMostPoints == simd::kMostPoints);
+static_assert(sizeof(ContactTwist) == simd::kTwistNumbers * sizeof(float));
+static_assert(offsetof(ContactTwist, rolling) == sizeof(float));
+static_assert(offsetof(ContactTwist, most_spinning) == simd::kMostSpinning * sizeof(float));
+static_assert(sizeof(TwistImpulse) == simd::kTwistRows * sizeof(float));
+static_assert(Manifold::kTwistRows == simd::kTwistRows);
 
 const simd::ContactBody kNobody{};
 
@@ -33,14 +38,23 @@ const Manifold& ManifoldOf(const BlockPacker& packer, int block, int lane) {
   return packer.problem.manifolds[packer.plan.pair(block, lane).manifold];
 }
 
-/// What the block after this one will read.
-void PrefetchPoints(const BlockPacker& packer, int block) {
+/// The impulses of a manifold, with those lines of the cache that only the last one reaches.
+void PrefetchImpulses(std::span<const ContactImpulse> impulses, const Manifold& manifold) {
+  const ContactImpulse* const first = &impulses[manifold.first_point];
+  const auto* const end = reinterpret_cast<const char*>(first + manifold.points) - 1;
+  for (auto* at = reinterpret_cast<const char*>(first); at < end; at += 64) {
+    __builtin_prefetch(at, 1);
+  }
+  __builtin_prefetch(end, 1);
+}
+
+/// Calls function(manifold) for those of a block, if there is such a block.
+template <class Function>
+void ForManifolds(const BlockPacker& packer, int block, const Function& function) {
   if (block >= static_cast<int>(packer.plan.blocks().size())) return;
   if (packer.plan.pair(block, 0).manifold == Pair::kNoManifold) return;
   for (int lane = 0; lane < packer.plan.blocks()[block].lanes; ++lane) {
-    const Manifold& manifold = ManifoldOf(packer, block, lane);
-    const ContactPoint* const points = &packer.problem.points[manifold.first_point];
-    for (int p = 0; p < manifold.points; ++p) __builtin_prefetch(points + p);
+    function(ManifoldOf(packer, block, lane));
   }
 }
 
@@ -68,9 +82,13 @@ simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
   return result;
 }
 
-PackResult PackManifolds(const BlockPacker& packer, int index,
-                         std::span<const ContactImpulse> start, BlockData* blocks) {
-  PrefetchPoints(packer, index + 1);
+PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& start,
+                         BlockData* blocks) {
+  ForManifolds(packer, index + 1, [&](const Manifold& next) {
+    const ContactPoint* const points = &packer.problem.points[next.first_point];
+    for (int p = 0; p < next.points; ++p) __builtin_prefetch(points + p);
+    PrefetchImpulses(start.points, next);
+  });
   const simd::PairBlock& block = packer.plan.blocks()[index];
   const Manifold& first = ManifoldOf(packer, index, 0);
   const ContactLaw& law = packer.problem.contact_law;
@@ -78,6 +96,7 @@ PackResult PackManifolds(const BlockPacker& packer, int index,
                            .points = first.points,
                            .tangents = first.tangents,
                            .soft = first.soft,
+                           .twists = first.twists,
                            .bounce_speed = law.bounce_speed,
                            .spin_before_torques = law.spin_before_torques};
   for (int lane = 0; lane < kLanes; ++lane) {
@@ -92,7 +111,10 @@ PackResult PackManifolds(const BlockPacker& packer, int index,
     lanes.b[lane] = body(manifold.body_b);
     lanes.second_moves[lane] = pair.a != manifold.body_a;
     lanes.point[lane] = packer.problem.points[manifold.first_point].arm_a;
-    lanes.start[lane] = &start[manifold.first_point].normal;
+    lanes.start[lane] = &start.points[manifold.first_point].normal;
+    if (!first.twists) continue;
+    lanes.twist[lane] = &packer.problem.twists[manifold.first_point].spinning;
+    lanes.twist_start[lane] = &start.twists[manifold.first_point].spinning;
   }
   const bool fits =
       packer.pack_contacts(lanes, blocks->data.data() + block.data, blocks->x.data() + block.x,
@@ -101,7 +123,9 @@ PackResult PackManifolds(const BlockPacker& packer, int index,
 }
 
 void WriteManifolds(const BlockPacker& packer, int index, const BlockData& blocks,
-                    std::span<ContactImpulse> impulses) {
+                    const Impulses& impulses) {
+  ForManifolds(packer, index + 1,
+               [&](const Manifold& next) { PrefetchImpulses(impulses.points, next); });
   const simd::PairBlock& block = packer.plan.blocks()[index];
   const simd::Line* const normals = blocks.x.data() + block.x;
   const simd::Line* const directions = blocks.directions.data() + DirectionsOf(block);
@@ -109,7 +133,7 @@ void WriteManifolds(const BlockPacker& packer, int index, const BlockData& block
     const Manifold& manifold = ManifoldOf(packer, index, lane);
     const simd::Line* friction = normals + manifold.points;
     for (int p = 0; p < manifold.points; ++p) {
-      ContactImpulse& impulse = impulses[manifold.first_point + p];
+      ContactImpulse& impulse = impulses.points[manifold.first_point + p];
       impulse = {.normal = normals[p].lane[lane]};
       for (int k = 0; k < manifold.tangents; ++k) {
         impulse.tangential[k] = (friction++)->lane[lane];
@@ -118,6 +142,11 @@ void WriteManifolds(const BlockPacker& packer, int index, const BlockData& block
       const simd::Line* const direction = directions + simd::kDirectionLines * p;
       for (int k = 0; k < 3; ++k) impulse.direction[k] = direction[k].lane[lane];
       impulse.heading = direction[3].lane[lane];
+    }
+    const simd::Line* twist = normals + manifold.points * (1 + manifold.tangents);
+    for (int p = 0; p < manifold.points && manifold.twists; ++p, twist += simd::kTwistRows) {
+      impulses.twists[manifold.first_point + p] = {
+          .spinning = twist[0].lane[lane], .rolling = {twist[1].lane[lane], twist[2].lane[lane]}};
     }
   }
 }

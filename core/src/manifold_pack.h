@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-
 #include "block_pack.h"
 
 namespace cairn {
@@ -14,11 +12,11 @@ simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
 
 /// The manifolds of a block into its lines, with their start impulses.
 /// @pre the block is one of manifolds
-PackResult PackManifolds(const BlockPacker& packer, int block,
-                         std::span<const ContactImpulse> start, BlockData* blocks);
+PackResult PackManifolds(const BlockPacker& packer, int block, const Impulses& start,
+                         BlockData* blocks);
 
 /// Their impulses from its lines.
 void WriteManifolds(const BlockPacker& packer, int block, const BlockData& blocks,
-                    std::span<ContactImpulse> impulses);
+                    const Impulses& impulses);
 
 }  // namespace cairn

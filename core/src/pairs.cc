@@ -150,6 +150,12 @@ int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
                                                           .parent = static_cast<std::int16_t>(p),
                                                           .max_sweeps = manifold.max_sweeps});
   }
+  for (int p = 0; p < manifold.points && manifold.twists; ++p) {
+    scratch_.resize(scratch_.size() + Manifold::kTwistRows, {.bound = simd::RowBound::kCutFriction,
+                                                             .angular = true,
+                                                             .parent = static_cast<std::int16_t>(p),
+                                                             .max_sweeps = manifold.max_sweeps});
+  }
   return shapes->Intern(scratch_, RowSource::kManifold);
 }
 
@@ -161,7 +167,7 @@ void PairFinder::AddManifolds(std::span<const Manifold> manifolds, ShapeTable* s
     const Manifold& manifold = manifolds[i];
     const bool alike = last != nullptr && last->points == manifold.points &&
                        last->tangents == manifold.tangents && last->soft == manifold.soft &&
-                       last->max_sweeps == manifold.max_sweeps;
+                       last->twists == manifold.twists && last->max_sweeps == manifold.max_sweeps;
     if (!alike) shape = ShapeOf(manifold, shapes);
     last = &manifold;
 

@@ -63,7 +63,8 @@ Report Measure(const ContactProblem& problem, std::span<const double> impulses) 
   std::vector<double> rows(impulses.begin(), impulses.end());
   std::vector<ContactImpulse> points(problem.points.size());
   const size_t contact_rows = rows.size() - std::min(rows.size(), problem.rows.size());
-  Impulses given{.rows = rows, .points = points};
+  std::vector<TwistImpulse> twists(problem.twists.size());
+  Impulses given{.rows = rows, .points = points, .twists = twists};
   if (!problem.manifolds.empty()) given.rows = given.rows.first(rows.size() - contact_rows);
   Report report = Validate(problem, given);
   if (!report.ok() || problem.manifolds.empty()) {

@@ -65,12 +65,22 @@ bool Finite(const ContactMotion& motion) {
   return zero == 0;
 }
 
+/// What resists turning at a point, and where it starts.
+Status CheckTwist(const ContactTwist& twist, const TwistImpulse& start) {
+  const float zero = 0 * twist.spinning + 0 * twist.rolling + 0 * start.spinning +
+                     0 * start.rolling[0] + 0 * start.rolling[1];
+  const bool numbers = !std::isnan(twist.most_spinning) && !std::isnan(twist.most_rolling);
+  if (zero != 0 || !numbers) return Status::kNotFinite;
+  const bool bounds = twist.spinning >= 0 && twist.rolling >= 0 && twist.most_spinning >= 0 &&
+                      twist.most_rolling >= 0;
+  return bounds ? Status::kOk : Status::kBadFriction;
+}
+
 /// Its points, and where they start.
-Status CheckPoints(const ContactProblem& problem, const Manifold& manifold,
-                   std::span<const ContactImpulse> start) {
+Status CheckPoints(const ContactProblem& problem, const Manifold& manifold, const Impulses& start) {
   for (int p = manifold.first_point; p < manifold.first_point + manifold.points; ++p) {
     const ContactPoint& point = problem.points[p];
-    const ContactImpulse& impulse = start[p];
+    const ContactImpulse& impulse = start.points[p];
     float zero = 0 * point.bias + 0 * point.restitution + 0 * point.friction;
     zero += 0 * impulse.normal + 0 * impulse.tangential[0] + 0 * impulse.tangential[1];
     if (manifold.soft) zero += 0 * point.compliance;
@@ -80,6 +90,9 @@ Status CheckPoints(const ContactProblem& problem, const Manifold& manifold,
     if (zero != 0) return Status::kNotFinite;
     if (point.friction < 0 || point.restitution < 0) return Status::kBadFriction;
     if (manifold.soft && point.compliance < 0) return Status::kBadCompliance;
+    if (!manifold.twists) continue;
+    const Status status = CheckTwist(problem.twists[p], start.twists[p]);
+    if (status != Status::kOk) return status;
   }
   return Status::kOk;
 }
@@ -141,7 +154,10 @@ Status ValidateRow(const ContactProblem& problem, int row, double impulse) {
 bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses) {
   if (impulses.rows.size() != problem.rows.size()) return false;
   const bool motions = problem.motions.empty() || problem.motions.size() == problem.bodies.size();
-  return problem.manifolds.empty() || (motions && impulses.points.size() == problem.points.size());
+  const bool twists = impulses.twists.size() == problem.twists.size() &&
+                      (problem.twists.empty() || problem.twists.size() == problem.points.size());
+  return problem.manifolds.empty() ||
+         (motions && twists && impulses.points.size() == problem.points.size());
 }
 
 Status ValidateManifold(const ContactProblem& problem, int index) {
@@ -155,7 +171,8 @@ Status ValidateManifold(const ContactProblem& problem, int index) {
                       Inside(manifold.tangents, 0, 2) && manifold.first_point >= 0;
   const auto end = static_cast<std::int64_t>(manifold.first_point) + manifold.points;
   const bool there = end <= static_cast<std::int64_t>(problem.points.size());
-  return points && there ? Status::kOk : Status::kWrongSize;
+  const bool twists = !manifold.twists || !problem.twists.empty();
+  return points && there && twists ? Status::kOk : Status::kWrongSize;
 }
 
 Report Validate(const ContactProblem& problem, const Impulses& impulses) {
@@ -182,8 +199,7 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   const auto row = [&](int i) { return ValidateRow(problem, i, impulses.rows[i]); };
   const auto manifold = [&](int i) {
     const Status status = ValidateManifold(problem, i);
-    return status == Status::kOk ? CheckPoints(problem, problem.manifolds[i], impulses.points)
-                                 : status;
+    return status == Status::kOk ? CheckPoints(problem, problem.manifolds[i], impulses) : status;
   };
   if (refused(problem.bodies.size(), body, &report.bad_body)) return report;
   if (refused(problem.rows.size(), row, &report.bad_row)) return report;

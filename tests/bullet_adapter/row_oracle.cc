@@ -194,9 +194,15 @@ void ExpectClose(const Row& actual, const Row& expected, double sign) {
 /// One point of a manifold, its rows as they were written out, and those that it should have.
 class PointComparison {
  public:
-  PointComparison(const Row* normal, const Row* frictions, const bullet::FastGroup& rows,
-                  const bullet::PointRows& point)
-      : normal_(*normal), frictions_(frictions), rows_(rows.problem().rows), point_(point) {}
+  struct Rows {
+    const Row *normal, *frictions, *twists;  ///< twists: or none
+  };
+  PointComparison(const Rows& actual, const bullet::FastGroup& rows, const bullet::PointRows& point)
+      : normal_(*actual.normal),
+        frictions_(actual.frictions),
+        twists_(actual.twists),
+        rows_(rows.problem().rows),
+        point_(point) {}
 
   void Compare() const {
     const Row& normal = rows_[point_.normal_row];
@@ -213,11 +219,26 @@ class PointComparison {
           actual.linear_a.dot(expected.linear_a) + actual.linear_b.dot(expected.linear_b);
       ExpectClose(actual, expected, along < 0 ? -1 : 1);
     }
+    CompareTwists();
   }
 
  private:
+  void CompareTwists() const {
+    for (int k = 0; k < point_.twists; ++k) {
+      ASSERT_NE(twists_, nullptr);
+      const Row &actual = twists_[k], &expected = rows_[point_.twist_row + k];
+      ExpectClose(actual, expected, -1);  // Bullet turns the second body
+      EXPECT_FLOAT_EQ(static_cast<float>(actual.friction), static_cast<float>(expected.friction));
+      EXPECT_FLOAT_EQ(static_cast<float>(actual.hi), static_cast<float>(expected.hi));
+    }
+    // where other points of the manifold roll
+    for (int k = 0; twists_ != nullptr && point_.twists == 0 && k < Manifold::kTwistRows; ++k) {
+      EXPECT_EQ(twists_[k].friction, 0);
+    }
+  }
+
   const Row& normal_;
-  const Row* frictions_;
+  const Row *frictions_, *twists_;
   std::span<const Row> rows_;
   const bullet::PointRows& point_;
 };
@@ -234,7 +255,10 @@ void CompareManifolds(const bullet::FastGroup& rows, bullet::FastGroup* points, 
       ASSERT_NE(of, rows_of.end());
       ASSERT_EQ(of->second->frictions, manifold.tangents);
       const Row* const frictions = next + manifold.points + p * manifold.tangents;
-      PointComparison(next + p, frictions, rows, *of->second).Compare();
+      const Row* const twists =
+          next + manifold.points * (1 + manifold.tangents) + p * Manifold::kTwistRows;
+      const PointComparison::Rows actual{next + p, frictions, manifold.twists ? twists : nullptr};
+      PointComparison(actual, rows, *of->second).Compare();
       rows_of.erase(of);
       ++counts->points;
     }

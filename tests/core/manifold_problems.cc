@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace cairn::test {
 namespace {
@@ -70,6 +71,25 @@ ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed) {
   return scene;
 }
 
+ManifoldScene RollingManifolds(int bodies, int manifolds, std::uint64_t seed) {
+  ManifoldScene scene = RandomManifolds(bodies, manifolds, seed);
+  Random random(seed + 1000);
+  const auto number = [&random](double lo, double hi) {
+    return static_cast<float>(random.Uniform(lo, hi));
+  };
+  for (Manifold& manifold : scene.manifolds) manifold.twists = random.Index(2) == 0;
+  for (size_t i = 0; i < scene.points.size(); ++i) {
+    const float most = random.Index(3) == 0 ? std::numeric_limits<float>::infinity() : 0.05f;
+    scene.twists.push_back({.spinning = number(0, 0.2),
+                            .rolling = random.Index(4) == 0 ? 0 : number(0, 0.3),
+                            .most_spinning = most,
+                            .most_rolling = number(0, 0.1)});
+    scene.twist_impulses.push_back(
+        {.spinning = number(-0.2, 0.2), .rolling = {number(-0.2, 0.2), number(-0.2, 0.2)}});
+  }
+  return scene;
+}
+
 ManifoldScene ManifoldTower(int boxes) {
   ManifoldScene scene;
   for (int i = 0; i < boxes; ++i) {
@@ -93,6 +113,10 @@ ManifoldScene ManifoldTower(int boxes) {
   }
   scene.point_impulses.resize(scene.points.size());
   return scene;
+}
+
+bool SameTwist(const TwistImpulse& a, const TwistImpulse& b) {
+  return std::memcmp(&a, &b, sizeof(TwistImpulse)) == 0;
 }
 
 testing::AssertionResult SameBits(std::span<const ContactImpulse> a,

@@ -19,19 +19,26 @@ struct ManifoldScene {
   ContactLaw law;
   std::vector<ContactMotion> motions;
   std::vector<double> row_impulses;
+  std::vector<ContactTwist> twists;  ///< one per point, or none
   std::vector<ContactImpulse> point_impulses;
+  std::vector<TwistImpulse> twist_impulses;
 
-  ContactProblem problem() const { return {bodies, rows, manifolds, points, law, motions}; }
-  Impulses impulses() { return {.rows = row_impulses, .points = point_impulses}; }
+  ContactProblem problem() const { return {bodies, rows, manifolds, points, law, motions, twists}; }
+  Impulses impulses() {
+    return {.rows = row_impulses, .points = point_impulses, .twists = twist_impulses};
+  }
 };
 
 /// Bodies of all kinds, some of them unmoved but moving, and manifolds of one to four points in all
 /// directions, each with friction, bounce, compliance and start impulses of its own.
 ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed);
+/// The same, of which half resist turning.
+ManifoldScene RollingManifolds(int bodies, int manifolds, std::uint64_t seed);
 /// Boxes of 1 m and 1 kg on each other and the ground, four contact points in each face.
 ManifoldScene ManifoldTower(int boxes);
 
 /// What of a solution there is to compare, to the bit.
+bool SameTwist(const TwistImpulse& a, const TwistImpulse& b);
 testing::AssertionResult SameBits(std::span<const ContactImpulse> a,
                                   std::span<const ContactImpulse> b);
 

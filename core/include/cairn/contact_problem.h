@@ -66,8 +66,8 @@ struct Row {
 ///
 /// The order of the rows matters with SweepOrder::kForward, and among the rows of two bodies.
 /// Contacts may be given as rows, or as manifolds: their rows follow @p rows, manifold by manifold,
-/// first the normals of its points, then the friction of each. Manifolds are faster: nothing is
-/// written out.
+/// first the normals of its points, then the friction of each, then what resists turning. Manifolds
+/// are faster: nothing is written out.
 ///
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.
@@ -80,6 +80,7 @@ struct ContactProblem {
   /// One per body, or none. What contacts see instead of the motion of the bodies, where these are
   /// at rest because velocities are counted from the start of the step.
   std::span<const ContactMotion> motions = {};
+  std::span<const ContactTwist> twists = {};  ///< One per point, or none.
 };
 
 /// Rows of the manifolds of a problem.
@@ -89,6 +90,7 @@ int ContactRows(const ContactProblem& problem);
 struct Impulses {
   std::span<double> rows;                 ///< One per row [N s] or [N m s].
   std::span<ContactImpulse> points = {};  ///< One per point of contact.
+  std::span<TwistImpulse> twists = {};    ///< One per ContactProblem::twists.
 };
 
 /// Measures given impulses, one per row (those of manifolds follow), in double precision and from

@@ -41,6 +41,24 @@ struct ContactImpulse {
   float direction[3] = {0, 0, 0};  ///< t1; of a start, it is not looked at.
 };
 
+/// What resists turning at a point of contact, where Manifold::twists says so: rows about the
+/// normal, and about the two axes across it, with vectors for body_a (opposite ones for body_b);
+/// bounds
+/// +-min(coefficient x_normal, most), target 0.
+struct ContactTwist {
+  float spinning;       ///< Coefficient about the normal [m], >= 0.
+  float rolling;        ///< About the axes across it [m], >= 0.
+  float most_spinning;  ///< However hard the bodies are pressed together [N m s], >= 0.
+  float most_rolling;   ///< Likewise.
+};
+
+/// What resistance to turning exerts on body_a [N m s]. As a start: that of an earlier frame, or
+/// zeros.
+struct TwistImpulse {
+  float spinning = 0;
+  float rolling[2] = {0, 0};
+};
+
 /// How a body moves before and after external impulses, where ContactProblem::motions says so.
 struct ContactMotion {
   float free_velocity[3], free_spin[3];    ///< With external impulses [m/s], [rad/s].
@@ -56,10 +74,13 @@ struct Manifold {
   std::int8_t points = 1;    ///< In [1, kMostPoints].
   std::int8_t tangents = 2;  ///< Directions of friction, in [0, 2].
   bool soft = false;         ///< Points have a compliance.
+  bool twists = false;       ///< Points resist turning, see ContactTwist.
   /// Sweeps of a Solve() that the rows take part in, counted from the first.
   int max_sweeps = std::numeric_limits<int>::max();
 
-  int rows() const { return points * (1 + tangents); }
+  int rows() const { return points * (1 + tangents + (twists ? kTwistRows : 0)); }
+
+  static constexpr int kTwistRows = 3;  ///< Of a point.
 };
 
 /// What all points of contact of a problem have in common.

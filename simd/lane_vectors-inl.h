@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Vectors in space, one in every lane, and directions in planes. Compiled once per target.
+#if defined(CAIRN_SIMD_LANE_VECTORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAIRN_SIMD_LANE_VECTORS_INL_H_
+#undef CAIRN_SIMD_LANE_VECTORS_INL_H_
+#else
+#define CAIRN_SIMD_LANE_VECTORS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "simd/pair_block.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cairn::simd {
+namespace HWY_NAMESPACE {
+namespace contacts {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr float kRootHalf = 0.70710678f;
+
+/// Four numbers of every lane from @p number on.
+HWY_INLINE void TransposeFour(const float* const* from, int number, Line* to) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int l = 0; l < kLanes; ++l) {
+    for (int k = 0; k < 4; ++k) to[k].lane[l] = from[l][number + k];
+  }
+#else
+  const hn::FixedTag<float, 4> d;
+  for (int l = 0; l < kLanes; l += 4) {
+    const auto r0 = hn::LoadU(d, from[l] + number), r1 = hn::LoadU(d, from[l + 1] + number);
+    const auto r2 = hn::LoadU(d, from[l + 2] + number), r3 = hn::LoadU(d, from[l + 3] + number);
+    const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
+    const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
+    hn::Store(hn::InterleaveLower(d, xy02, xy13), d, to[0].lane + l);
+    hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, to[1].lane + l);
+    hn::Store(hn::InterleaveLower(d, zw02, zw13), d, to[2].lane + l);
+    hn::Store(hn::InterleaveUpper(d, zw02, zw13), d, to[3].lane + l);
+  }
+#endif
+}
+
+using D = hn::CappedTag<float, kLanes>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
+
+HWY_INLINE V Set(float value) { return hn::Set(D(), value); }
+HWY_INLINE V Load(const Line& line, int l) { return hn::Load(D(), line.lane + l); }
+HWY_INLINE void Store(V v, Line* line, int l) { hn::Store(v, D(), line->lane + l); }
+
+/// A vector in space, for as many lanes as a register holds.
+struct Vector {
+  V x, y, z;
+};
+HWY_INLINE Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+HWY_INLINE Vector operator-(Vector a, Vector b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+HWY_INLINE Vector operator*(V s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
+HWY_INLINE Vector Scale(Vector a, Vector b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+HWY_INLINE V Dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+HWY_INLINE Vector Cross(Vector a, Vector b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HWY_INLINE Vector Where(M which, Vector a, Vector b) {
+  return {hn::IfThenElse(which, a.x, b.x), hn::IfThenElse(which, a.y, b.y),
+          hn::IfThenElse(which, a.z, b.z)};
+}
+HWY_INLINE Vector At(const Line* lines, int l) {
+  return {Load(lines[0], l), Load(lines[1], l), Load(lines[2], l)};
+}
+HWY_INLINE void Put(Vector v, Line* lines, int l) {
+  Store(v.x, lines, l);
+  Store(v.y, lines + 1, l);
+  Store(v.z, lines + 2, l);
+}
+
+/// A unit vector across a unit vector: the first axis of its plane, of which n x it is the second.
+HWY_INLINE Vector FirstAxis(Vector n) {
+  const V zero = hn::Zero(D());
+  const M steep = hn::Gt(hn::Abs(n.z), Set(kRootHalf));
+  const V other = hn::IfThenElse(steep, n.z, n.x);
+  const V k = Set(1) / hn::Sqrt(n.y * n.y + other * other);
+  return Where(steep, {zero, zero - n.z * k, n.y * k}, {zero - n.y * k, n.x * k, zero});
+}
+
+/// A direction in a plane as one number, without trigonometry: its place on the square
+/// |x| + |y| = 1, from 1 at (1, 0) counter-clockwise to 5.
+HWY_INLINE V ToHeading(V x, V y) {
+  const V along = x / (hn::Abs(x) + hn::Abs(y));
+  return hn::IfThenElse(hn::Ge(y, hn::Zero(D())), Set(2) - along, Set(4) + along);
+}
+
+/// A direction in a plane.
+struct Heading {
+  V x, y;
+  M known;  ///< else it is (1, 0), and the second direction is the second axis
+};
+HWY_INLINE Heading FromHeading(V heading) {
+  const V one = Set(1), zero = hn::Zero(D());
+  const M upper = hn::Lt(heading, Set(3));
+  const V x = hn::IfThenElse(upper, Set(2) - heading, heading - Set(4));
+  const V left = one - hn::Abs(x);
+  const V y = hn::IfThenElse(upper, left, zero - left);
+  const M known = hn::And(hn::Ge(heading, one), hn::Le(heading, Set(5)));
+  const V length = hn::Sqrt(hn::IfThenElse(known, x * x + y * y, one));
+  return {hn::IfThenElse(known, x / length, one), hn::IfThenElse(known, y / length, zero), known};
+}
+
+}  // namespace contacts
+}  // namespace HWY_NAMESPACE
+}  // namespace cairn::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
