@@ -44,16 +44,6 @@ Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max
   return settings;
 }
 
-template <class T>
-T* Data(btAlignedObjectArray<T>* array) {
-  return array->size() > 0 ? &(*array)[0] : nullptr;
-}
-
-template <class T>
-void Append(T* values, int count, btAlignedObjectArray<T>* array) {
-  for (int i = 0; i < count; ++i) array->push_back(values[i]);
-}
-
 }  // namespace
 
 struct ConstraintSolver::Impl {
@@ -69,9 +59,9 @@ struct ConstraintSolver::Impl {
 
   /// Groups between prepareSolve() and allSolved(), to be solved as one.
   bool collecting = false;
-  btAlignedObjectArray<btCollisionObject*> bodies;
-  btAlignedObjectArray<btPersistentManifold*> manifolds;
-  btAlignedObjectArray<btTypedConstraint*> constraints;
+  std::vector<btCollisionObject*> bodies;
+  std::vector<btPersistentManifold*> manifolds;
+  std::vector<btTypedConstraint*> constraints;
   btDispatcher* dispatcher = nullptr;
 
   /// What of a Budget::Time is not for the iteration.
@@ -118,9 +108,9 @@ std::span<const double> ConstraintSolver::impulses() const {
 
 void ConstraintSolver::prepareSolve(int, int) {
   impl_->collecting = true;
-  impl_->bodies.resize(0);
-  impl_->manifolds.resize(0);
-  impl_->constraints.resize(0);
+  impl_->bodies.clear();
+  impl_->manifolds.clear();
+  impl_->constraints.clear();
 }
 
 btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies,
@@ -129,9 +119,9 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
                                       const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
                                       btDispatcher* dispatcher) {
   if (impl_->collecting) {
-    Append(bodies, num_bodies, &impl_->bodies);
-    Append(manifolds, num_manifolds, &impl_->manifolds);
-    Append(constraints, num_constraints, &impl_->constraints);
+    impl_->bodies.insert(impl_->bodies.end(), bodies, bodies + num_bodies);
+    impl_->manifolds.insert(impl_->manifolds.end(), manifolds, manifolds + num_manifolds);
+    impl_->constraints.insert(impl_->constraints.end(), constraints, constraints + num_constraints);
     impl_->dispatcher = dispatcher;
     return 0;
   }
@@ -153,8 +143,9 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
 
 void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
   impl_->collecting = false;
-  solveGroup(Data(&impl_->bodies), impl_->bodies.size(), Data(&impl_->manifolds),
-             impl_->manifolds.size(), Data(&impl_->constraints), impl_->constraints.size(), info,
+  const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
+  solveGroup(impl_->bodies.data(), size(impl_->bodies), impl_->manifolds.data(),
+             size(impl_->manifolds), impl_->constraints.data(), size(impl_->constraints), info,
              debug_drawer, impl_->dispatcher);
 }
 

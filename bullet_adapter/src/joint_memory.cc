@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "joint_memory.h"
 
+#include <utility>
+
+#include "prefetch.h"
+
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
@@ -37,55 +41,68 @@ bool Alike(const std::array<float, 12>& a, const std::array<float, 12>& b) {
 
 }  // namespace
 
-void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor) {
-  factor_ = factor;
-  index_.Rewind();
-  applied_.clear();
-  for (btTypedConstraint* joint : joints) applied_.push_back(joint->internalGetAppliedImpulse());
+void JointMemory::Memory::Clear() {
+  entries.clear();
+  directions.clear();
+  impulses.clear();
 }
 
-void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) {
-  if (factor_ == 0) return;
-  const int found = index_.Find(joint.joint);
-  if (found < 0) return;
-  const Entry& entry = entries_[found];
-  const bool same = entry.type == joint.joint->getConstraintType() &&
-                    entry.body_a == &joint.joint->getRigidBodyA() &&
-                    entry.body_b == &joint.joint->getRigidBodyB() && entry.rows == joint.rows &&
-                    entry.applied_impulse == applied_[place];
-  if (!same || !PointAlike(entry, joint, *group)) return;
-  for (int i = 0; i < joint.rows; ++i) {
-    group->impulses[joint.first_row + i] = factor_ * rows_[entry.first_row + i].impulse;
+void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor) {
+  constexpr size_t kAhead = 8;
+  factor_ = factor;
+  index_.Rewind();
+  now_.Clear();
+  applied_.clear();
+  for (size_t i = 0; i < joints.size(); ++i) {
+    if (i + kAhead < joints.size()) PrefetchJoint(*joints[i + kAhead], kHeadOfJoint);
+    applied_.push_back(joints[i]->internalGetAppliedImpulse());
   }
 }
 
-bool JointMemory::PointAlike(const Entry& entry, const JointRows& joint,
-                             const GroupProblem& group) const {
+void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) {
+  const Entry& now = now_.entries.emplace_back(
+      Entry{&joint.joint->getRigidBodyA(), &joint.joint->getRigidBodyB(),
+            joint.joint->getConstraintType(), static_cast<int>(now_.directions.size()), joint.rows,
+            applied_[place]});
   for (int i = 0; i < joint.rows; ++i) {
-    const KeptRow& kept = rows_[entry.first_row + i];
-    if (!Alike(kept.direction, DirectionOf(group.rows[joint.first_row + i]))) return false;
+    now_.directions.push_back(DirectionOf(group->rows[joint.first_row + i]));
+  }
+  if (factor_ == 0) return;
+  const int found = index_.Find(joint.joint);
+  if (found < 0) return;
+  const Entry& last = last_.entries[found];
+  const bool same = last.type == now.type && last.body_a == now.body_a &&
+                    last.body_b == now.body_b && last.rows == now.rows &&
+                    last.applied_impulse == now.applied_impulse;
+  if (!same || !PointAlike(last, now)) return;
+  for (int i = 0; i < joint.rows; ++i) {
+    group->impulses[joint.first_row + i] = factor_ * last_.impulses[last.first_row + i];
+  }
+}
+
+bool JointMemory::PointAlike(const Entry& last, const Entry& now) const {
+  for (int i = 0; i < now.rows; ++i) {
+    const Direction& before = last_.directions[last.first_row + i];
+    if (!Alike(before, now_.directions[now.first_row + i])) return false;
   }
   return true;
 }
 
 void JointMemory::Keep(const GroupProblem& group) {
-  Forget();
-  for (const JointRows& joint : group.joints) {
+  std::swap(last_, now_);
+  index_.Clear();
+  for (size_t i = 0; i < group.joints.size(); ++i) {
+    const JointRows& joint = group.joints[i];
     index_.Add(joint.joint);
-    entries_.push_back({&joint.joint->getRigidBodyA(), &joint.joint->getRigidBodyB(),
-                        joint.joint->getConstraintType(), static_cast<int>(rows_.size()),
-                        joint.rows, joint.joint->internalGetAppliedImpulse()});
-    for (int i = 0; i < joint.rows; ++i) {
-      const int row = joint.first_row + i;
-      rows_.push_back({DirectionOf(group.rows[row]), group.impulses[row]});
-    }
+    last_.entries[i].applied_impulse = joint.joint->internalGetAppliedImpulse();
+    const auto first = group.impulses.begin() + joint.first_row;
+    last_.impulses.insert(last_.impulses.end(), first, first + joint.rows);
   }
 }
 
 void JointMemory::Forget() {
   index_.Clear();
-  entries_.clear();
-  rows_.clear();
+  last_.Clear();
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -22,7 +22,8 @@ class JointMemory {
   /// Begins a group; the applied impulses of the joints must be as the last group left them.
   /// @param factor  of the start, in [0, 1]; 0 starts cold.
   void Begin(std::span<btTypedConstraint* const> joints, btScalar factor);
-  /// Sets the start of the joint with that place in the group.
+  /// Sets the start of the joint with that place in the group. All joints with rows must come here,
+  /// in the order of GroupProblem::joints.
   void Start(int place, const JointRows& joint, GroupProblem* group);
   /// Remembers a solved group, once its impulses are written to the joints.
   void Keep(const GroupProblem& group);
@@ -34,17 +35,21 @@ class JointMemory {
     int type, first_row, rows;
     btScalar applied_impulse;
   };
-  struct KeptRow {
-    std::array<float, 12> direction;
-    double impulse;
+  using Direction = std::array<float, 12>;
+  struct Memory {
+    std::vector<Entry> entries;
+    std::vector<Direction> directions;  ///< of their rows
+    std::vector<double> impulses;       ///< likewise
+
+    void Clear();
   };
 
-  bool PointAlike(const Entry& entry, const JointRows& joint, const GroupProblem& group) const;
+  bool PointAlike(const Entry& last, const Entry& now) const;
 
   btScalar factor_ = 0;
   std::vector<btScalar> applied_;  ///< of the present joints, by place
-  std::vector<Entry> entries_;
-  std::vector<KeptRow> rows_;
+  Memory last_;
+  Memory now_;          ///< directions are read while they are in the cache
   AddressIndex index_;  ///< of the entries
 };
 

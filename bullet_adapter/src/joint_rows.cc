@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "conversions.h"
+#include "prefetch.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -63,8 +64,10 @@ bool AllOfKnownType(Joints joints) {
 
 void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits) {
   most_sweeps_ = 0;
+  constexpr size_t kAhead = 2;
   for (btTypedConstraint* joint : joints) Prepare(joint);
   for (size_t place = 0; place < joints.size(); ++place) {
+    if (place + kAhead < joints.size()) PrefetchJoint(*joints[place + kAhead], kMostOfJoint);
     if (!joints[place]->isEnabled()) continue;
     const JointRows appended = AppendJoint(joints[place], info, limits);
     if (appended.rows == 0) continue;
@@ -144,9 +147,15 @@ void JointRowBuilder::AppendRow(const Ends& ends, const Slot& slot, btScalar dam
   row.hi = Bound(slot.upper);
   row.relaxation = Relaxation(1 + slot.cfm);  // Bullet's D leaves the cfm of a joint out
 
-  const btScalar diagonal =
-      HalfDiagonal(ends.a, linear_a, angular_a) + HalfDiagonal(ends.b, linear_b, angular_b);
-  if (!(btFabs(diagonal) > SIMD_EPSILON)) return;
+  // most rows are rigid and push a mass: of their diagonal it is enough to know that there is one
+  const btScalar pushed =
+      linear_a.length2() * ends.a.getInvMass() + linear_b.length2() * ends.b.getInvMass();
+  btScalar diagonal = pushed;
+  if (slot.cfm != 0 || !(pushed > SIMD_EPSILON)) {
+    diagonal =
+        HalfDiagonal(ends.a, linear_a, angular_a) + HalfDiagonal(ends.b, linear_b, angular_b);
+    if (!(btFabs(diagonal) > SIMD_EPSILON)) return;
+  }
   const btScalar speed = HalfSpeed(ends.a, ends.motion_a, linear_a, angular_a) +
                          HalfSpeed(ends.b, ends.motion_b, linear_b, angular_b);
   const double target = static_cast<double>(slot.error) - static_cast<double>(speed * damping);

@@ -4,6 +4,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include "conversions.h"
+#include "prefetch.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -47,14 +48,19 @@ void WriteContacts(const GroupProblem& group, const btContactSolverInfo& info) {
 }
 
 void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info) {
-  for (const JointRows& rows : group.joints) {
+  constexpr size_t kAhead = 4;
+  for (size_t i = 0; i < group.joints.size(); ++i) {
+    if (i + kAhead < group.joints.size()) {
+      PrefetchJoint(*group.joints[i + kAhead].joint, kHeadOfJoint);
+    }
+    const JointRows& rows = group.joints[i];
     btTypedConstraint& joint = *rows.joint;
     btJointFeedback* const feedback = joint.getJointFeedback();
     const btScalar breaking = joint.getBreakingImpulseThreshold() * (1 - kFloatRounding);
-    for (int i = rows.first_row; i < rows.first_row + rows.rows; ++i) {
-      const auto impulse = static_cast<btScalar>(group.impulses[i]);
+    for (int row = rows.first_row; row < rows.first_row + rows.rows; ++row) {
+      const auto impulse = static_cast<btScalar>(group.impulses[row]);
       if (feedback != nullptr) {
-        AddFeedback(group.rows[i], impulse / info.m_timeStep, joint, feedback);
+        AddFeedback(group.rows[row], impulse / info.m_timeStep, joint, feedback);
       }
       joint.internalSetAppliedImpulse(impulse);
       if (btFabs(impulse) >= breaking) joint.setEnabled(false);

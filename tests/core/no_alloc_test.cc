@@ -223,7 +223,7 @@ TEST_F(NoAlloc, InTheThirdRoundOfChangingContacts) {
 }
 
 TEST_F(NoAlloc, WhileManifoldsBeginAndEnd) {
-  const test::ManifoldScene whole = test::RandomManifolds(400, 1200, 1);
+  const test::ManifoldScene whole = test::RollingManifolds(400, 1200, 1);
   for (const int threads : {1, 2}) {
     Settings settings = Coloured(10);
     settings.threads = threads;

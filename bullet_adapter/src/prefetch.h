@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+
+#include "cairn/bullet/precision.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// What is common to joints of all types, and about as much as most of them are [bytes].
+inline constexpr int kHeadOfJoint = sizeof(btTypedConstraint), kMostOfJoint = 768;
+
+/// Asks for a joint before it is needed: joints lie all over the memory of the game.
+inline void PrefetchJoint(const btTypedConstraint& joint, int bytes) {
+  const auto* const begin = reinterpret_cast<const char*>(&joint);
+  for (int at = 0; at < bytes; at += 64) __builtin_prefetch(begin + at);
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet
