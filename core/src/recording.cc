@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/recording.h"
+
+#include "contact_expansion.h"
+#include "validate.h"
+
+namespace cairn {
+
+void Recording::Assign(const ContactProblem& problem, const Impulses& start) {
+  bodies.assign(problem.bodies.begin(), problem.bodies.end());
+  rows.assign(problem.rows.begin(), problem.rows.end());
+  manifolds.assign(problem.manifolds.begin(), problem.manifolds.end());
+  points.assign(problem.points.begin(), problem.points.end());
+  contact_law = problem.contact_law;
+  motions.assign(problem.motions.begin(), problem.motions.end());
+  row_impulses.assign(start.rows.begin(), start.rows.end());
+  point_impulses.assign(start.points.begin(), start.points.end());
+}
+
+Status WriteOutRows(const Recording& recording, Recording* rows) {
+  Recording copy = recording;
+  const Impulses start{copy.row_impulses, copy.point_impulses};
+  const ContactProblem problem = copy.problem();
+  if (const Report checked = Validate(problem, start); !checked.ok()) return checked.status;
+  if (!copy.manifolds.empty()) {
+    ContactExpansion expansion(problem, start);
+    const std::vector<Row> all(expansion.problem().rows.begin(), expansion.problem().rows.end());
+    const std::vector<double> impulses(expansion.impulses().begin(), expansion.impulses().end());
+    copy.rows = all;
+    copy.row_impulses = impulses;
+    copy.manifolds.clear();
+    copy.points.clear();
+    copy.point_impulses.clear();
+    copy.motions.clear();
+  }
+  *rows = std::move(copy);
+  return Status::kOk;
+}
+
+}  // namespace cairn

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+// The fields of everything in a recording, in the order of the file: the one place that knows it.
+// Writer, reader and counter are shown the same fields.
+#pragma once
+
+#include "cairn/recording.h"
+
+namespace cairn {
+
+template <class Io>
+void Visit(Eigen::Vector3d& v, Io& io) {
+  for (int k = 0; k < 3; ++k) io.F64(v[k]);
+}
+
+template <class Io, int n>
+void Visit(float (&values)[n], Io& io) {
+  for (float& value : values) io.F32(value);
+}
+
+template <class Io>
+void Visit(Body& body, Io& io) {
+  io.F64(body.inv_mass);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) io.F64(body.inv_inertia(i, j));
+  }
+  Visit(body.linear_factor, io);
+  Visit(body.velocity.linear, io);
+  Visit(body.velocity.angular, io);
+  Visit(body.impulse, io);
+  Visit(body.angular_impulse, io);
+  io.U64(body.id);
+}
+
+template <class Io>
+void Visit(Row& row, Io& io) {
+  io.I32(row.body_a);
+  io.I32(row.body_b);
+  Visit(row.linear_a, io);
+  Visit(row.angular_a, io);
+  Visit(row.linear_b, io);
+  Visit(row.angular_b, io);
+  io.F64(row.target);
+  io.F64(row.compliance);
+  io.F64(row.lo);
+  io.F64(row.hi);
+  io.F64(row.friction);
+  io.F64(row.relaxation);
+  io.I32(row.parent);
+  io.I32(row.max_sweeps);
+}
+
+template <class Io>
+void Visit(Manifold& manifold, Io& io) {
+  io.I32(manifold.body_a);
+  io.I32(manifold.body_b);
+  io.I32(manifold.first_point);
+  io.I32(manifold.max_sweeps);
+  io.Small(manifold.points, 1, Manifold::kMostPoints);
+  io.Small(manifold.tangents, 0, 2);
+  io.Flag(manifold.soft);
+  io.Zeros(1);
+}
+
+template <class Io>
+void Visit(ContactPoint& point, Io& io) {
+  Visit(point.arm_a, io);
+  Visit(point.arm_b, io);
+  Visit(point.normal, io);
+  Visit(point.tangent, io);
+  io.F32(point.bias);
+  io.F32(point.restitution);
+  io.F32(point.friction);
+  io.F32(point.compliance);
+}
+
+template <class Io>
+void Visit(ContactImpulse& impulse, Io& io) {
+  io.F32(impulse.normal);
+  Visit(impulse.tangential, io);
+  io.F32(impulse.heading);
+  Visit(impulse.direction, io);
+}
+
+template <class Io>
+void Visit(ContactMotion& motion, Io& io) {
+  Visit(motion.free_velocity, io);
+  Visit(motion.free_spin, io);
+  Visit(motion.start_velocity, io);
+  Visit(motion.start_spin, io);
+}
+
+template <class Io>
+void Visit(ContactLaw& law, Io& io) {
+  io.F32(law.bounce_speed);
+  io.Flag(law.spin_before_torques);
+  io.Zeros(3);
+}
+
+template <class Io>
+void Visit(double& value, Io& io) {
+  io.F64(value);
+}
+
+template <class Io>
+void Visit(std::uint8_t& value, Io& io) {
+  io.U8(value);
+}
+
+/// A budget as two numbers.
+struct BudgetFields {
+  Budget::Kind kind;
+  std::int64_t amount;
+};
+
+inline BudgetFields Split(const Budget& budget) {
+  switch (budget.kind()) {
+    case Budget::Kind::kTime:
+      return {budget.kind(), budget.time().count()};
+    case Budget::Kind::kWork:
+      return {budget.kind(), budget.work()};
+    case Budget::Kind::kUnlimited:
+      break;
+  }
+  return {Budget::Kind::kUnlimited, 0};
+}
+
+inline Budget Join(const BudgetFields& fields) {
+  switch (fields.kind) {
+    case Budget::Kind::kTime:
+      return Budget::Time(std::chrono::nanoseconds(fields.amount));
+    case Budget::Kind::kWork:
+      return Budget::Work(fields.amount);
+    case Budget::Kind::kUnlimited:
+      break;
+  }
+  return Budget::Unlimited();
+}
+
+template <class Io>
+void Visit(Settings& settings, Io& io) {
+  // names every field: a new one does not compile until it is part of the file
+  auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay, min_sweeps,
+         threads, executor, omega, lifted_friction, step_policy, proximal, proximal_joints,
+         refinements, active_tolerance] = settings;
+  static_cast<void>(replay);  // has a section of its own
+  static_cast<void>(executor);
+  io.Enum(method, Method::kInteriorPoint);
+  io.Enum(order, SweepOrder::kColoured);
+  io.I32(k_gs);
+  io.I32(k_sm);
+  io.I32(max_sweeps);
+  io.I32(min_sweeps);
+  io.F64(tolerance);
+  io.F64(min_progress);
+  BudgetFields fields = Split(budget);
+  io.I64(fields.amount);
+  io.Enum(fields.kind, Budget::Kind::kWork);
+  io.Require(fields.kind != Budget::Kind::kUnlimited || fields.amount == 0);
+  budget = Join(fields);
+  io.I32(threads);
+  io.Enum(lifted_friction, LiftedFriction::kHold);
+  io.Enum(step_policy, StepPolicy::kAlways);
+  io.F64(omega);
+  io.F64(proximal);
+  io.F64(proximal_joints);
+  io.F64(active_tolerance);
+  io.I32(refinements);
+  io.Zeros(4);
+}
+
+}  // namespace cairn

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "cairn/recording.h"
+
+namespace cairn::test {
+
+/// Bodies, rows of every kind, manifolds and impulses, which can be solved.
+Recording RandomRecording(std::uint64_t seed);
+
+}  // namespace cairn::test
