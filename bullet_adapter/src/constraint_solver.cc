@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "cairn/bullet/group_rows.h"
@@ -18,6 +19,9 @@ using Clock = std::chrono::steady_clock;
 
 /// Aimed at of a budget of time, so that the last block of rows still ends inside it.
 constexpr int kAimPercent = 98;
+
+constexpr const char* kSource =
+    sizeof(btScalar) == 4 ? "cairn::bullet, float" : "cairn::bullet, float64";
 
 bool Unlimited(const Settings& settings) {
   return settings.budget.kind() == Budget::Kind::kUnlimited;
@@ -69,6 +73,11 @@ struct ConstraintSolver::Impl {
   std::chrono::nanoseconds write_time{0}, finish_time{0};  ///< of the last group
 
   void SetTimeLeft(Budget* budget) const;
+
+  std::unique_ptr<Recorder> recorder = Recorder::FromEnvironment(kSource);
+
+  /// Takes a copy of the problem if it is to be recorded, on nobody's budget.
+  bool BeginRecording(const ContactProblem& problem, const Impulses& impulses);
 };
 
 void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
@@ -76,6 +85,15 @@ void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
   const std::chrono::nanoseconds left =
       budget->time() * kAimPercent / 100 - (Clock::now() - start) - write_time - finish_time;
   *budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
+}
+
+bool ConstraintSolver::Impl::BeginRecording(const ContactProblem& problem,
+                                            const Impulses& impulses) {
+  if (recorder == nullptr) return false;
+  const Clock::time_point begin = Clock::now();
+  const bool recording = recorder->Begin(problem, impulses);
+  start += Clock::now() - begin;
+  return recording;
 }
 
 ConstraintSolver::ConstraintSolver(const Settings& settings, const Options& options)
@@ -106,6 +124,16 @@ std::span<const double> ConstraintSolver::impulses() const {
   return impl_->shown_impulses;
 }
 
+void ConstraintSolver::RecordNext(std::string path) {
+  if (impl_->recorder == nullptr) impl_->recorder = std::make_unique<Recorder>(kSource);
+  impl_->recorder->RecordNext(std::move(path));
+}
+
+const RecordedFiles& ConstraintSolver::recorded() const {
+  static const RecordedFiles none;
+  return impl_->recorder != nullptr ? impl_->recorder->files() : none;
+}
+
 void ConstraintSolver::prepareSolve(int, int) {
   impl_->collecting = true;
   impl_->bodies.clear();
@@ -128,17 +156,23 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   impl_->start = Clock::now();
   impl_->fell_back = impl_->solved_fast = false;
   impl_->times = {};
+  bool solved = false;
   if (impl_->options.mode == Mode::kFast) {
     const Group group{{bodies, static_cast<size_t>(num_bodies)},
                       {manifolds, static_cast<size_t>(num_manifolds)},
                       {constraints, static_cast<size_t>(num_constraints)}};
-    if (SolveFast(group, info)) return 0;
-    impl_->fell_back = true;
+    solved = SolveFast(group, info);
+    impl_->fell_back = !solved;
   }
-  impl_->fast.Forget();
-  return btSequentialImpulseConstraintSolver::solveGroup(
-      bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
-      debug_drawer, dispatcher);
+  btScalar result = 0;
+  if (!solved) {
+    impl_->fast.Forget();
+    result = btSequentialImpulseConstraintSolver::solveGroup(
+        bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
+        debug_drawer, dispatcher);
+  }
+  if (impl_->recorder != nullptr) impl_->recorder->NextFrame();
+  return result;
 }
 
 void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
@@ -169,19 +203,23 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     impl_->solved_fast = true;
     return true;
   }
+  const bool recording = impl_->BeginRecording(fast.problem(), fast.impulses());
   const Clock::time_point built = Clock::now();
   Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
-  if (!impl_->report.ok()) return false;
-  impl_->solved_fast = true;
+  impl_->solved_fast = impl_->report.ok();
 
   const Clock::time_point solved = Clock::now();
-  fast.Write(info);
-  impl_->write_time = Clock::now() - solved;
-  impl_->finish_time = {};
-  impl_->times = {built - impl_->start, solved - built, impl_->write_time};
+  if (impl_->solved_fast) {
+    fast.Write(info);
+    impl_->write_time = Clock::now() - solved;
+    impl_->finish_time = {};
+    impl_->times = {built - impl_->start, solved - built, impl_->write_time};
+  }
+  if (recording) impl_->recorder->End(settings, impl_->report);
+  if (!impl_->solved_fast) return false;
   // 0 is the number that Bullet gives the first body
   Analyse(group, group.bodies.empty() ? -2 : 0);
   return true;
@@ -213,10 +251,13 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
 
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;
+  const bool recording =
+      impl_->BeginRecording(impl_->rows.problem(), {.rows = impl_->rows.impulses()});
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities(),
                       &impl_->report);
+  if (recording) impl_->recorder->End(settings, impl_->report);
   if (!impl_->report.ok()) {
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,

@@ -6,10 +6,12 @@
 #include <chrono>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
+#include "cairn/recorder.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 
@@ -70,6 +72,12 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// until the next substep, impulses until they are asked for again; empty before the first.
   ContactProblem problem() const;
   std::span<const double> impulses() const;
+
+  /// Writes the problem of the next substep to a file. CAIRN_RECORD in the environment, looked at
+  /// when a solver is made, writes those of all substeps; see docs/recording.md.
+  void RecordNext(std::string path);
+  /// What was written, and what could not be.
+  const RecordedFiles& recorded() const;
 
   void prepareSolve(int bodies, int manifolds) override;
   btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,
