@@ -31,6 +31,7 @@ class CairnContestant : public Contestant {
   explicit CairnContestant(const Settings& settings) : solver_(settings) {}
 
   btConstraintSolver* solver() override { return &solver_; }
+  bullet::ConstraintSolver* cairn() override { return &solver_; }
   void Observe(Observer observer) override { solver_.Observe(std::move(observer)); }
   std::chrono::nanoseconds TakeObservingTime() override { return solver_.TakeObservingTime(); }
 

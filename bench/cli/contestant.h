@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "cairn/bullet/constraint_solver.h"
 #include "measure/observed.h"
 
 namespace cairn::cli {
@@ -34,6 +35,8 @@ class Contestant {
   virtual ~Contestant() = default;
 
   virtual btConstraintSolver* solver() = 0;
+  /// The same, if it is Cairn's.
+  virtual bullet::ConstraintSolver* cairn() { return nullptr; }
   /// Before each substep. Writes the settings of the world that the solver needs into `info`.
   virtual void Begin(const Effort& effort, btContactSolverInfo* info) = 0;
   /// Of the last substep.

@@ -26,6 +26,10 @@ class Lane {
   void ProbeNext(bench::InstrumentedSolver::Probe probe);
 
   bool failed() const { return result_.failure.has_value(); }
+  /// Why it failed; empty if it did not.
+  std::string failure() const { return failed() ? result_.failure->reason : ""; }
+  /// Its solver, if that is Cairn's.
+  bullet::ConstraintSolver* cairn() { return contestant_->cairn(); }
   /// What the solver may spend on the next frame.
   const Effort& effort() const { return effort_; }
   const std::string& label() const { return result_.label; }

@@ -13,6 +13,7 @@
 #include "cli/list.h"
 #include "cli/names.h"
 #include "cli/precision.h"
+#include "cli/record_command.h"
 #include "cli/run_command.h"
 #include "cli/solve_command.h"
 
@@ -95,7 +96,7 @@ int Main(Arguments arguments) {
       "'cairn COMMAND --help' says more. First tries: cairn run tower --budget 2ms,\n"
       "cairn solve journal-bearing");
   const Command commands[] = {AddDoctor(&app), AddList(&app), AddRunCommand(&app),
-                              AddSolveCommand(&app)};
+                              AddRecordCommand(&app), AddSolveCommand(&app)};
   Arguments names;
   for (const Command& command : commands) {
     command.app->allow_extras();

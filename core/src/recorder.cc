@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
 namespace cairn {
@@ -51,6 +52,13 @@ bool FrameChoice::Contains(std::int64_t frame) const {
   return all_ || std::any_of(ranges_.begin(), ranges_.end(), [frame](const auto& range) {
            return range.first <= frame && frame <= range.second;
          });
+}
+
+std::int64_t FrameChoice::last() const {
+  if (all_) return std::numeric_limits<std::int64_t>::max();
+  std::int64_t last = -1;
+  for (const auto& range : ranges_) last = std::max(last, range.second);
+  return last;
 }
 
 std::unique_ptr<Recorder> Recorder::FromEnvironment(std::string source) {

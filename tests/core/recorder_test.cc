@@ -51,6 +51,7 @@ FrameChoice Frames(const char* text) {
 TEST(FrameChoice, TakesNumbersAndRanges) {
   EXPECT_TRUE(FrameChoice().Contains(7));
   const FrameChoice frames = Frames("3,10-12,40");
+  EXPECT_EQ(frames.last(), 40);
   for (const int frame : {3, 10, 11, 12, 40}) EXPECT_TRUE(frames.Contains(frame));
   for (const int frame : {0, 2, 4, 9, 13, 39, 41}) EXPECT_FALSE(frames.Contains(frame));
   for (const char* bad :

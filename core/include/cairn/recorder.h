@@ -23,6 +23,8 @@ class FrameChoice {
   bool Parse(std::string_view text);
 
   bool Contains(std::int64_t frame) const;
+  /// The last one; -1 if there is none, the largest number if they are all.
+  std::int64_t last() const;
 
  private:
   bool all_ = true;
