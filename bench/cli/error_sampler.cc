@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/error_sampler.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/result.h"
@@ -15,6 +16,17 @@ ErrorSampler::ErrorSampler(std::span<const SolverChoice> solvers,
   for (const SolverChoice& choice : solvers) contestants_.push_back(choice.entry->make());
 }
 
+void ErrorSampler::AddLadders(std::span<const SolverChoice> solvers, double most) {
+  std::vector<const SolverEntry*> kinds;
+  for (const SolverChoice& choice : solvers) {
+    const auto known = std::find(kinds.begin(), kinds.end(), choice.entry);
+    ladder_of_.push_back(known - kinds.begin());
+    if (known != kinds.end()) continue;
+    kinds.push_back(choice.entry);
+    ladders_.push_back(std::make_unique<EffortLadder>(*choice.entry, defaults_, most));
+  }
+}
+
 void ErrorSampler::WarmUp(bench::Substep* substep, std::span<const Effort> efforts) {
   for (size_t i = 0; i < contestants_.size(); ++i) {
     btContactSolverInfo info = defaults_;
@@ -22,6 +34,7 @@ void ErrorSampler::WarmUp(bench::Substep* substep, std::span<const Effort> effor
     substep->Restore();
     substep->SolveWith(contestants_[i]->solver(), info, nullptr);
   }
+  for (const auto& ladder : ladders_) ladder->WarmUp(substep);
 }
 
 ErrorSampler::Errors ErrorSampler::Measure(bench::Substep* substep,
@@ -41,6 +54,9 @@ ErrorSampler::Errors ErrorSampler::Measure(bench::Substep* substep,
     const double error = bench::VelocityError(truth, bench::ReadVelocities(substep->bodies()));
     errors.of_solvers.push_back(refused ? kNotMeasured : error);
   }
+  std::vector<std::vector<CurvePoint>> curves;
+  for (const auto& ladder : ladders_) curves.push_back(ladder->Measure(substep, truth));
+  for (const size_t ladder : ladder_of_) errors.curves.push_back(curves[ladder]);
   return errors;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/contestant.h"
+#include "cli/effort_ladder.h"
 #include "cli/solver_registry.h"
 #include "measure/substep.h"
 
@@ -22,12 +23,17 @@ class ErrorSampler {
   /// @param defaults  settings of a world before any solver changed them.
   ErrorSampler(std::span<const SolverChoice> solvers, const btContactSolverInfo& defaults);
 
+  /// Measures error against time too, up to substeps of so long [ms].
+  void AddLadders(std::span<const SolverChoice> solvers, double most);
+
   /// Lets the solvers solve a state that is not measured, so that they do not start cold.
   void WarmUp(bench::Substep* substep, std::span<const Effort> efforts);
 
   struct Errors {
     std::vector<double> of_solvers;  ///< [m/s], NaN for a solver that refused the state.
     double reference_residual = 0;   ///< [m/s]
+    /// Of each solver, empty without ladders.
+    std::vector<std::vector<CurvePoint>> curves;
   };
   /// @param efforts  one per solver
   Errors Measure(bench::Substep* substep, std::span<const Effort> efforts);
@@ -36,6 +42,8 @@ class ErrorSampler {
   std::vector<std::unique_ptr<Contestant>> contestants_;
   std::unique_ptr<bullet::ConstraintSolver> reference_;
   btContactSolverInfo defaults_;
+  std::vector<std::unique_ptr<EffortLadder>> ladders_;  ///< one for each kind of solver
+  std::vector<size_t> ladder_of_;                       ///< of each solver; none without ladders
 };
 
 }  // namespace cairn::cli

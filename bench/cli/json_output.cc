@@ -22,6 +22,7 @@ Json PerFrame(const SolverResult& solver, Member member) {
 Json ToJson(const Summary& s) {
   return {{"p50_ms", Number(s.p50)},
           {"p99_ms", Number(s.p99)},
+          {"p99_9_ms", Number(s.p999)},
           {"max_ms", Number(s.max)},
           {"timed_frames", s.timed_frames},
           {"overruns", Maybe(s.overruns)},

@@ -35,10 +35,15 @@ std::string Describe(const Effort& effort, Control control) {
   return fmt::format("{} iterations", effort.iterations);
 }
 
-double ResidualOf(const ContactProblem& problem, std::span<const double> impulses) {
+/// Adds a solved group to what was observed in its frame.
+void Observe(const ContactProblem& problem, std::span<const double> impulses, Frame* frame) {
   const Report report = Measure(problem, impulses);
-  if (report.status == Status::kEmptyProblem) return 0;
-  return report.ok() ? report.residual_max : kInfinity;
+  if (report.status == Status::kEmptyProblem) return;
+  frame->residual = std::max(frame->residual, report.ok() ? report.residual_max : kInfinity);
+  for (const IslandReport& island : report.islands) {
+    frame->rows += island.rows;
+    frame->islands += island.rows > 0;
+  }
 }
 
 }  // namespace
@@ -60,6 +65,7 @@ Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOption
     fit_.emplace(*options.budget);
     result_.effort = "iterations that fit " + FormatDuration(*options.budget);
   }
+  if (options.page) replay_.emplace().Take(world_);
 }
 
 void Lane::ProbeNext(bench::InstrumentedSolver::Probe probe) {
@@ -73,14 +79,14 @@ void Lane::Prepare(Observing observing) {
   if (std::exchange(probing_, false)) info.m_minimumSolverBatchSize = 1;
   world_.solver_info() = info;
 
-  residual_ = kNotMeasured;
+  observed_ = {};
   if (observing == Observing::kOff) {
     contestant_->Observe(nullptr);
     return;
   }
-  residual_ = 0;  // of a world in which nothing touches
+  observed_.residual = 0;  // of a world in which nothing touches
   contestant_->Observe([this](const ContactProblem& problem, std::span<const double> impulses) {
-    residual_ = std::max(residual_, ResidualOf(problem, impulses));
+    cli::Observe(problem, impulses, &observed_);
   });
 }
 
@@ -106,17 +112,25 @@ void Lane::Record(std::chrono::nanoseconds time) {
   const Work work = contestant_->work();
   result_.frames.push_back({.time = Milliseconds(time),
                             .iterations = work.iterations,
-                            .residual = residual_,
+                            .residual = observed_.residual,
                             .steps_accepted = work.steps_accepted,
                             .steps_restored = work.steps_restored,
-                            .factorisations = work.factorisations});
+                            .factorisations = work.factorisations,
+                            .rows = observed_.rows,
+                            .islands = observed_.islands,
+                            .facts = {}});
   if (!watched_.failure().empty()) {
     result_.failure = {.frame = frame, .reason = watched_.failure()};
+    return;
   }
+  if (!replay_) return;
+  replay_->Take(world_);
+  result_.frames.back().facts = ReadFrameFacts(*scene_, world_);
 }
 
 SolverResult Lane::Finish() {
   result_.fallback_share = contestant_->fallback_share();
+  if (replay_) result_.replay = replay_->Finish();
   if (!failed()) ReadFacts(*scene_, world_, &result_);
   return std::move(result_);
 }

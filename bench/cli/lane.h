@@ -3,6 +3,8 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "cli/contestant.h"
 #include "cli/iteration_fit.h"
@@ -40,6 +42,8 @@ class Lane {
 
   /// Adds the velocity error of a sample [m/s].
   void AddError(double error) { result_.velocity_errors.push_back(error); }
+  /// Adds what more and more effort came to on a sample.
+  void AddCurve(std::vector<CurvePoint> curve) { result_.curves.push_back(std::move(curve)); }
   /// The result with what became of the scene. Once, after the last frame.
   SolverResult Finish();
 
@@ -55,7 +59,8 @@ class Lane {
   std::optional<IterationFit> fit_;
   Effort effort_;
   bool probing_ = false;
-  double residual_ = kNotMeasured;  ///< Largest of the groups of this frame.
+  Frame observed_;  ///< What observing found in this frame: residual, rows, islands.
+  std::optional<ReplayRecorder> replay_;
   SolverResult result_;
 };
 

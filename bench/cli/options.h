@@ -23,6 +23,8 @@ struct RunOptions {
   std::uint64_t seed = 0;
   int samples = 8;
   ProgressMode progress = ProgressMode::kAuto;
+  /// Records what only the page shows: facts of each frame, motion, and error against time.
+  bool page = false;
 };
 
 }  // namespace cairn::cli

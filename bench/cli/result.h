@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/frame_facts.h"
+#include "cli/replay.h"
 #include "cli/run_context.h"
 
 namespace cairn::cli {
@@ -21,6 +23,15 @@ struct Frame {
   int iterations = 0;
   double residual = kNotMeasured;  ///< Largest of all groups, on observed frames [m/s].
   int steps_accepted = 0, steps_restored = 0, factorisations = 0;
+  int rows = 0, islands = 0;  ///< Given to the solver, on observed frames; 0 otherwise.
+  FrameFacts facts;           ///< With RunOptions::page.
+};
+
+/// What a solver reached with some effort on a sampled state.
+struct CurvePoint {
+  double time = 0;   ///< [ms]
+  double error = 0;  ///< Velocity error [m/s].
+  int iterations = 0, factorisations = 0;
 };
 
 /// A physical fact of a scene after the last frame.
@@ -47,6 +58,9 @@ struct SolverResult {
   std::optional<SolverFailure> failure;  ///< Its world was not stepped after this frame.
   std::vector<Fact> facts;
   std::optional<bool> standing;  ///< Only where the scene is something that can fall.
+  /// For each sample, from the least effort on; with RunOptions::page.
+  std::vector<std::vector<CurvePoint>> curves;
+  Replay replay;  ///< With RunOptions::page.
 };
 
 /// A state that every solver was given.
@@ -61,7 +75,8 @@ struct SceneResult {
   int size = 0;
   std::uint64_t seed = 0;
   int bodies = 0, joints = 0;
-  int observed_every = 1;  ///< The residual was measured in every k-th frame.
+  double mass_ratio = kNotMeasured;  ///< Of the heaviest body and the lightest.
+  int observed_every = 1;            ///< The residual was measured in every k-th frame.
   std::vector<Sample> samples;
   std::vector<SolverResult> solvers;
 };

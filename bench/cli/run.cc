@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "cli/duration.h"
 #include "cli/error_sampler.h"
 #include "cli/lane.h"
 #include "cli/sample_plan.h"
@@ -18,6 +19,11 @@ namespace {
 /// this are measured in every fifth frame only.
 constexpr int kManyBodies = 400;
 constexpr int kSparse = 5;
+
+/// Error against time is measured up to twice the time of a frame, or of the budget [ms].
+double LongestSubstep(const RunOptions& options) {
+  return std::max(34.0, options.budget ? 2 * Milliseconds(*options.budget) : 0);
+}
 
 class SceneRun {
  public:
@@ -33,7 +39,9 @@ class SceneRun {
     result_.bodies = static_cast<int>(lanes_.front()->world().dynamic_bodies().size());
     result_.joints = static_cast<int>(lanes_.front()->world().joints().size());
     result_.observed_every = result_.bodies > kManyBodies ? kSparse : 1;
+    result_.mass_ratio = MassRatio(lanes_.front()->world());
     sampler_ = std::make_unique<ErrorSampler>(options.solvers, lanes_.front()->defaults());
+    if (options.page) sampler_->AddLadders(options.solvers, LongestSubstep(options));
   }
 
   void Step(int frame) {
@@ -69,7 +77,10 @@ class SceneRun {
     (*source)->ProbeNext([this, efforts, frame, label = (*source)->label()](
                              bench::Substep* substep, const btContactSolverInfo&) {
       const ErrorSampler::Errors errors = sampler_->Measure(substep, efforts);
-      for (size_t i = 0; i < lanes_.size(); ++i) lanes_[i]->AddError(errors.of_solvers[i]);
+      for (size_t i = 0; i < lanes_.size(); ++i) {
+        lanes_[i]->AddError(errors.of_solvers[i]);
+        if (!errors.curves.empty()) lanes_[i]->AddCurve(errors.curves[i]);
+      }
       result_.samples.push_back(
           {.frame = frame, .source = label, .reference_residual = errors.reference_residual});
     });

@@ -76,7 +76,8 @@ RunOptions Check(const RunWords& words) {
 }
 
 int DoRun(const RunWords& words, const std::string& command) {
-  const RunOptions options = Check(words);
+  RunOptions options = Check(words);
+  options.page = !words.report.empty();
   const std::pair<std::string, std::string (*)(const RunResult&)> files[] = {
       {words.json, &ToJson},
       {words.csv, &ToCsv},

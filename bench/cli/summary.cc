@@ -100,6 +100,7 @@ Summary Summarise(const SolverResult& solver, const SceneResult& scene,
   summary.timed_frames = static_cast<int>(times.size());
   summary.p50 = Median(times);
   summary.p99 = Quantile(times, 0.99);
+  summary.p999 = Quantile(times, 0.999);
   summary.max = Largest(times);
   if (budget) {
     const double limit = Milliseconds(*budget);

@@ -12,7 +12,7 @@ namespace cairn::cli {
 /// The frames of a solver in a few numbers; NaN where nothing was measured.
 struct Summary {
   /// Time in the solver [ms], frames after which all were given a sampled state not counted.
-  double p50 = kNotMeasured, p99 = kNotMeasured, max = kNotMeasured;
+  double p50 = kNotMeasured, p99 = kNotMeasured, p999 = kNotMeasured, max = kNotMeasured;
   int timed_frames = 0;
   std::optional<int> overruns;       ///< Timed frames above the budget, if there is one.
   double iterations = kNotMeasured;  ///< Mean.

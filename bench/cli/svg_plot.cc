@@ -231,6 +231,7 @@ std::string_view PlotStyleSheet() {
   return R"css(
 :root{--s0:#0067b1;--s1:#c74a00;--s2:#8a5bb5;--s3:#00795a;--s4:#a8006d;--s5:#5c5c5c}
 @media (prefers-color-scheme:dark){:root{--s0:#5ab4f5;--s1:#ff9257;--s2:#c3a0ee;--s3:#3ed2a4;--s4:#ff8fce;--s5:#bdbdbd}}
+:root.paper{--s0:#0067b1;--s1:#c74a00;--s2:#8a5bb5;--s3:#00795a;--s4:#a8006d;--s5:#5c5c5c}
 @media print{:root{--s0:#0067b1;--s1:#c74a00;--s2:#8a5bb5;--s3:#00795a;--s4:#a8006d;--s5:#5c5c5c}}
 .s0{--c:var(--s0)}.s1{--c:var(--s1)}.s2{--c:var(--s2)}.s3{--c:var(--s3)}.s4{--c:var(--s4)}.s5{--c:var(--s5)}
 svg{font:11px system-ui,sans-serif;width:100%;height:auto;display:block}

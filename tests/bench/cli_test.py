@@ -4,6 +4,7 @@ import csv
 import html.parser
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -185,8 +186,9 @@ class RunTest(CairnTest):
 
         Checker().feed(page)
         self.assertEqual(open_tags, [])
-        self.assertNotIn("<script", page)
-        self.assertNotIn("nan", page.lower().replace("nanoseconds", ""))
+        # what the tool wrote itself: without the scripts, whose text is not ours
+        written = re.sub(r"(?s)<script>.*?</script>", "", page)
+        self.assertNotIn("nan", written.lower().replace("nanoseconds", ""))
 
     def test_without_a_budget_two_runs_agree_to_the_last_bit(self):
         def results():
