@@ -15,11 +15,13 @@ void Recording::Assign(const ContactProblem& problem, const Impulses& start) {
   motions.assign(problem.motions.begin(), problem.motions.end());
   row_impulses.assign(start.rows.begin(), start.rows.end());
   point_impulses.assign(start.points.begin(), start.points.end());
+  twists.assign(problem.twists.begin(), problem.twists.end());
+  twist_impulses.assign(start.twists.begin(), start.twists.end());
 }
 
 Status WriteOutRows(const Recording& recording, Recording* rows) {
   Recording copy = recording;
-  const Impulses start{copy.row_impulses, copy.point_impulses};
+  const Impulses start = copy.impulses();
   const ContactProblem problem = copy.problem();
   if (const Report checked = Validate(problem, start); !checked.ok()) return checked.status;
   if (!copy.manifolds.empty()) {
@@ -31,6 +33,8 @@ Status WriteOutRows(const Recording& recording, Recording* rows) {
     copy.manifolds.clear();
     copy.points.clear();
     copy.point_impulses.clear();
+    copy.twists.clear();
+    copy.twist_impulses.clear();
     copy.motions.clear();
   }
   *rows = std::move(copy);

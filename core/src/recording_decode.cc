@@ -297,9 +297,13 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   contents.Read(kManifolds, &read.manifolds);
   contents.Read(kPoints, &read.points);
   contents.Read(kPointImpulses, &read.point_impulses);
+  contents.Read(kTwists, &read.twists);
+  contents.Read(kTwistImpulses, &read.twist_impulses);
   contents.Expect(kMotions, read.motions.empty() ? 0 : read.bodies.size());
   contents.Expect(kRowImpulses, read.rows.size());
   contents.Expect(kPointImpulses, read.points.size());
+  contents.Expect(kTwists, read.twists.empty() ? 0 : read.points.size());
+  contents.Expect(kTwistImpulses, read.twists.size());
   if (!contents.status().ok()) return contents.status();
   if (source.size() > kMostSourceBytes) {
     return Fault(RecordingFault::kBadLayout,

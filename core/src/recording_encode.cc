@@ -106,6 +106,12 @@ RecordingStatus Check(const Recording& recording) {
       recording.point_impulses.size() != recording.points.size()) {
     return Unfit("the start does not have one impulse per row and one per point");
   }
+  if (!recording.twists.empty() && recording.twists.size() != recording.points.size()) {
+    return Unfit("there is neither one twist per point nor none");
+  }
+  if (recording.twist_impulses.size() != recording.twists.size()) {
+    return Unfit("the start does not have one impulse per twist");
+  }
   if (!recording.motions.empty() && recording.motions.size() != recording.bodies.size()) {
     return Unfit("there is neither one motion per body nor none");
   }
@@ -129,6 +135,8 @@ void AddSections(const Recording& recording, SectionWriter* to) {
   to->Add(kManifolds, std::span(recording.manifolds));
   to->Add(kPoints, std::span(recording.points));
   to->Add(kPointImpulses, std::span(recording.point_impulses));
+  to->Add(kTwists, std::span(recording.twists));
+  to->Add(kTwistImpulses, std::span(recording.twist_impulses));
 }
 
 }  // namespace

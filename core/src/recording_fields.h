@@ -58,7 +58,7 @@ void Visit(Manifold& manifold, Io& io) {
   io.Small(manifold.points, 1, Manifold::kMostPoints);
   io.Small(manifold.tangents, 0, 2);
   io.Flag(manifold.soft);
-  io.Zeros(1);
+  io.Flag(manifold.twists);
 }
 
 template <class Io>
@@ -79,6 +79,20 @@ void Visit(ContactImpulse& impulse, Io& io) {
   Visit(impulse.tangential, io);
   io.F32(impulse.heading);
   Visit(impulse.direction, io);
+}
+
+template <class Io>
+void Visit(ContactTwist& twist, Io& io) {
+  io.F32(twist.spinning);
+  io.F32(twist.rolling);
+  io.F32(twist.most_spinning);
+  io.F32(twist.most_rolling);
+}
+
+template <class Io>
+void Visit(TwistImpulse& impulse, Io& io) {
+  io.F32(impulse.spinning);
+  Visit(impulse.rolling, io);
 }
 
 template <class Io>
@@ -140,8 +154,8 @@ template <class Io>
 void Visit(Settings& settings, Io& io) {
   // names every field: a new one does not compile until it is part of the file
   auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay, min_sweeps,
-         threads, executor, omega, lifted_friction, step_policy, proximal, proximal_joints,
-         refinements, active_tolerance] = settings;
+         threads, executor, omega, lifted_friction, acceleration, step_policy, proximal,
+         proximal_joints, refinements, active_tolerance] = settings;
   static_cast<void>(replay);  // has a section of its own
   static_cast<void>(executor);
   io.Enum(method, Method::kInteriorPoint);
@@ -165,7 +179,7 @@ void Visit(Settings& settings, Io& io) {
   io.F64(proximal_joints);
   io.F64(active_tolerance);
   io.I32(refinements);
-  io.Zeros(4);
+  io.Enum(acceleration, Acceleration::kNncg);
 }
 
 }  // namespace cairn

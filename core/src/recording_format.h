@@ -34,11 +34,14 @@ enum Section {
   kManifolds,
   kPoints,
   kPointImpulses,
+  kTwists,
+  kTwistImpulses,
   kSections
 };
 
 inline constexpr std::array<std::string_view, kSections> kSectionNames = {
-    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP", "MANI", "PNTS", "PIMP"};
+    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN",
+    "ROWS", "RIMP", "MANI", "PNTS", "PIMP", "TWST", "TIMP"};
 
 /// Adds up the bytes of fields.
 class FieldCounter {

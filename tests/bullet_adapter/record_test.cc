@@ -70,7 +70,7 @@ std::vector<double> SolveNext(Solver* solver, Recording recording) {
   solver->settings() = recording.settings;
   if (recording.replay) solver->settings().replay = &*recording.replay;
   std::vector<Velocity> velocities(recording.bodies.size());
-  const Impulses impulses{recording.row_impulses, recording.point_impulses};
+  const Impulses impulses = recording.impulses();
   EXPECT_TRUE(solver->Solve(recording.problem(), impulses, velocities).ok());
   return InOneRow(recording, impulses);
 }
@@ -192,7 +192,7 @@ TEST(RecordedWorld, MayBeOneThatIsRefused) {
   EXPECT_GE(solver.recorded().written, 1);
   Recording recording = Read(folder + "/nan.cairn");
   std::vector<Velocity> velocities(recording.bodies.size());
-  const Impulses impulses{recording.row_impulses, recording.point_impulses};
+  const Impulses impulses = recording.impulses();
   EXPECT_EQ(Solver(recording.settings).Solve(recording.problem(), impulses, velocities).status,
             Status::kNotFinite);
 }

@@ -36,8 +36,7 @@ std::vector<std::string> FilesIn(const std::string& folder) {
 void Play(Recorder* recorder, int frames) {
   for (int i = 0; i < frames; ++i) {
     Recording frame = test::RandomRecording(i);
-    const Impulses start{frame.row_impulses, frame.point_impulses};
-    if (recorder->Begin(frame.problem(), start)) recorder->End(frame.settings, Report{});
+    if (recorder->Begin(frame.problem(), frame.impulses())) recorder->End(frame.settings, Report{});
     recorder->NextFrame();
   }
 }

@@ -28,6 +28,7 @@ struct Answer {
   Report report;
   std::vector<double> rows;
   std::vector<ContactImpulse> points;
+  std::vector<TwistImpulse> twists;
   std::vector<Velocity> velocities;
 };
 
@@ -35,10 +36,11 @@ Answer SolveAgain(const Recording& recording) {
   Answer answer{.report = {},
                 .rows = recording.row_impulses,
                 .points = recording.point_impulses,
+                .twists = recording.twist_impulses,
                 .velocities = std::vector<Velocity>(recording.bodies.size())};
   Solver solver(recording.settings);
   if (recording.replay) solver.settings().replay = &*recording.replay;
-  solver.Solve(recording.problem(), {answer.rows, answer.points}, answer.velocities,
+  solver.Solve(recording.problem(), {answer.rows, answer.points, answer.twists}, answer.velocities,
                &answer.report);
   return answer;
 }
@@ -49,6 +51,7 @@ testing::AssertionResult SameBits(const Answer& a, const Answer& b) {
     return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof x[0]) == 0;
   };
   if (!bits(a.rows, b.rows)) return testing::AssertionFailure() << "impulses of rows";
+  if (!bits(a.twists, b.twists)) return testing::AssertionFailure() << "impulses of twists";
   if (!bits(a.velocities, b.velocities)) return testing::AssertionFailure() << "velocities";
   return test::SameBits(a.points, b.points);
 }
@@ -143,11 +146,12 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   const Bytes bytes = EncodeAll(recording);
   EXPECT_EQ(NumberAt(bytes, 0, 8), 0x0a1a0a0d4e524389u);
   EXPECT_EQ(NumberAt(bytes, 8, 4), 1u);
-  EXPECT_EQ(NumberAt(bytes, 12, 4), 12u);
+  EXPECT_EQ(NumberAt(bytes, 12, 4), 14u);
   EXPECT_EQ(NumberAt(bytes, 16, 8), bytes.size());
   const std::pair<const char*, unsigned> sizes[] = {
-      {"INFO", 1},  {"FRAM", 8},   {"SETT", 104}, {"REPL", 1},  {"LAWS", 8},  {"BODY", 208},
-      {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8},   {"MANI", 20}, {"PNTS", 64}, {"PIMP", 28}};
+      {"INFO", 1},   {"FRAM", 8},  {"SETT", 104}, {"REPL", 1}, {"LAWS", 8},
+      {"BODY", 208}, {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8}, {"MANI", 20},
+      {"PNTS", 64},  {"PIMP", 28}, {"TWST", 16},  {"TIMP", 12}};
   std::size_t entry = 32, data = 32 + 32 * std::size(sizes);
   for (const auto& [name, size] : sizes) {
     EXPECT_EQ(TableEntryOf(bytes, name), entry) << name;

@@ -25,15 +25,21 @@ struct Recording {
   std::vector<ContactPoint> points;
   ContactLaw contact_law;
   std::vector<ContactMotion> motions;
+  std::vector<ContactTwist> twists;
   std::vector<double> row_impulses;            ///< The start, one per row.
   std::vector<ContactImpulse> point_impulses;  ///< The start, one per point.
+  std::vector<TwistImpulse> twist_impulses;    ///< The start, one per twist.
 
   /// The pointers among them are not kept: they are nullptr.
   Settings settings;
   /// What the clock decided, if the budget was a time.
   std::optional<Replay> replay;
 
-  ContactProblem problem() const { return {bodies, rows, manifolds, points, contact_law, motions}; }
+  ContactProblem problem() const {
+    return {bodies, rows, manifolds, points, contact_law, motions, twists};
+  }
+  /// The start, in the memory of the recording: a Solve() puts its results there.
+  Impulses impulses() { return {row_impulses, point_impulses, twist_impulses}; }
   /// Takes a copy of a problem and its start; memory is used again.
   void Assign(const ContactProblem& problem, const Impulses& start);
 };
