@@ -195,7 +195,10 @@ void ConstraintSolver::reset() {
 bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
   if (!AllOfKnownType(group.joints)) return false;
   FastGroup& fast = impl_->fast;
-  fast.Read(group, info, LimitsOf(impl_->settings), impl_->options);
+  {
+    const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kRead});
+    fast.Read(group, info, LimitsOf(impl_->settings), impl_->options);
+  }
   if (fast.problem().bodies.empty()) {
     fast.Forget();
     impl_->report = {};
@@ -213,6 +216,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
 
   const Clock::time_point solved = Clock::now();
   if (impl_->solved_fast) {
+    const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kWrite});
     fast.Write(info);
     impl_->write_time = Clock::now() - solved;
     impl_->finish_time = {};

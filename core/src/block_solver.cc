@@ -27,12 +27,20 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
   crew_.Follow(settings);
   const size_t rows = problem.rows.size() + static_cast<size_t>(ContactRows(problem));
   Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
+  crew->RecordTo(settings.spans);
   const Shift shift(crew);
-  const PackResult begun = frame_.Begin(problem, OmegaOf(settings), impulses, crew);
+  const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
   cycle_.Run(problem, settings, &frame_, &memories_, meter, crew, report);
+  const SpanClock clock(settings.spans, 0, {SpanKind::kResults});
   frame_.End(problem, crew, impulses, velocities);
   return PackResult::kDone;
+}
+
+PackResult BlockSolver::Begin(const ContactProblem& problem, const Settings& settings,
+                              const Impulses& impulses, Crew* crew) {
+  const SpanClock clock(settings.spans, 0, {SpanKind::kSetUp});
+  return frame_.Begin(problem, OmegaOf(settings), impulses, crew);
 }
 
 }  // namespace cairn

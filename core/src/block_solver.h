@@ -25,6 +25,9 @@ class BlockSolver {
   IslandMemories& memories() { return memories_; }
 
  private:
+  PackResult Begin(const ContactProblem& problem, const Settings& settings,
+                   const Impulses& impulses, Crew* crew);
+
   BlockFrame frame_;
   BlockCycle cycle_;
   IslandMemories memories_;

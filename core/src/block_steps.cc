@@ -145,6 +145,7 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BudgetMeter* me
                                  .refinements = settings_->refinements};
   BlockSystem<T>& system = SystemOf<T>(group);
   meter->Begin();
+  const SpanClock clock(settings_->spans, 0, {SpanKind::kStep, group});
   const int made =
       step->Take(frame_->plan(), group, settings, &system, crew_, &frame_->blocks(), islands_now_);
   const double price = PriceOf<T>(group, made);

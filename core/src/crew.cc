@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <thread>
 #include <utility>
@@ -79,7 +80,9 @@ class Board {
   /// The caller: does one stage with whoever is there.
   void DoStage(StagedWork* work, int stage) {
     const int units = work->units(stage);
+    SpanRecorder* const recorder = recorder_.load(std::memory_order_relaxed);
     if (units <= 1 || !open()) {
+      const SpanClock clock(recorder, 0, LabelOf(recorder, *work, stage));
       for (int unit = 0; unit < units; ++unit) work->Do(stage, unit);
       return;
     }
@@ -90,8 +93,9 @@ class Board {
     done_.store(0, std::memory_order_relaxed);
     const Stage now{++number_, claims};
     published_.store(now.Packed(), std::memory_order_release);
-    Attend(now, 0);
+    Attend(now, {});
     // what is claimed is being worked on by a running thread: this wait ends
+    const SpanClock clock(recorder, 0, {SpanKind::kWait});
     for (Patience patience; done_.load(std::memory_order_acquire) < claims;) patience.Wait();
   }
 
@@ -99,16 +103,45 @@ class Board {
   void Help() {
     // what the caller wrote before it opened the board is seen from here on
     static_cast<void>(open_.load(std::memory_order_acquire));
-    const int home = homes_.fetch_add(1, std::memory_order_relaxed) + 1;
+    const Helper helper{homes_.fetch_add(1, std::memory_order_relaxed) + 1, TakeLane()};
     do {
-      HelpWhileOpen(home);
+      HelpWhileOpen(helper);
       helpers_.fetch_sub(1);
       // opened again in between: whoever opened it may have counted on this helper
     } while (open_.load() && Expect());
+    GiveBack(helper.lane);
   }
 
+  void RecordTo(SpanRecorder* recorder) { recorder_.store(recorder, std::memory_order_relaxed); }
+
  private:
-  void HelpWhileOpen(int home) {
+  /// A thread at work; the caller has the first of both.
+  struct Helper {
+    int home = 0;  ///< where it begins to claim
+    int lane = 0;  ///< of the record; nobody else has it
+  };
+
+  /// A label costs a virtual call, so only where somebody wants it.
+  static SpanLabel LabelOf(const SpanRecorder* recorder, const StagedWork& work, int stage) {
+    return recorder != nullptr ? work.label(stage) : SpanLabel{};
+  }
+
+  /// The lowest lane that nobody has; one that is not recorded if all are taken.
+  int TakeLane() {
+    std::uint64_t taken = lanes_.load(std::memory_order_relaxed);
+    while (~taken != 0) {
+      const int lane = std::countr_one(taken);
+      const std::uint64_t with = taken | std::uint64_t{1} << lane;
+      if (lanes_.compare_exchange_weak(taken, with, std::memory_order_acquire)) return lane;
+    }
+    return SpanRecorder::kMostWorkers;
+  }
+  void GiveBack(int lane) {
+    if (lane >= SpanRecorder::kMostWorkers) return;
+    lanes_.fetch_and(~(std::uint64_t{1} << lane), std::memory_order_release);
+  }
+
+  void HelpWhileOpen(const Helper& helper) {
     std::uint64_t seen = 0;
     Patience patience;
     while (open_.load(std::memory_order_acquire)) {
@@ -118,16 +151,16 @@ class Board {
         continue;
       }
       seen = packed;
-      Attend(Stage::Unpack(packed), home);
+      Attend(Stage::Unpack(packed), helper);
       patience = {};
     }
   }
 
   /// Claims what is left of a stage, from home on.
-  void Attend(const Stage& stage, int home) {
+  void Attend(const Stage& stage, const Helper& helper) {
     if (stage.claims == 0) return;
     const int threads = most_helpers_.load(std::memory_order_relaxed) + 1;
-    const int first = stage.claims * (home % threads) / threads;
+    const int first = stage.claims * (helper.home % threads) / threads;
     for (int i = 0; i < stage.claims; ++i) {
       const int claim = first + i < stage.claims ? first + i : first + i - stage.claims;
       std::uint64_t last = claimed_[claim].load(std::memory_order_relaxed);
@@ -136,24 +169,28 @@ class Board {
       if (!claimed_[claim].compare_exchange_strong(last, stage.number, std::memory_order_acq_rel)) {
         continue;
       }
-      DoClaim(claim, stage.claims);
+      DoClaim(claim, stage.claims, helper.lane);
       done_.fetch_add(1, std::memory_order_release);
     }
   }
 
-  void DoClaim(int claim, int claims) {
+  void DoClaim(int claim, int claims, int lane) {
     // stable now: the caller waits for what is claimed
     StagedWork* const work = work_.load(std::memory_order_relaxed);
     const int stage = stage_.load(std::memory_order_relaxed);
     const std::int64_t units = units_.load(std::memory_order_relaxed);
     const int begin = static_cast<int>(units * claim / claims);
     const int end = static_cast<int>(units * (claim + 1) / claims);
+    SpanRecorder* const recorder = recorder_.load(std::memory_order_relaxed);
+    const SpanClock clock(recorder, lane, LabelOf(recorder, *work, stage));
     for (int unit = begin; unit < end; ++unit) work->Do(stage, unit);
   }
 
   std::atomic<int> owners_{1}, helpers_{0}, most_helpers_{0}, homes_{0};
   std::uint64_t number_ = 0;
   std::atomic<StagedWork*> work_{nullptr};
+  std::atomic<SpanRecorder*> recorder_{nullptr};
+  std::atomic<std::uint64_t> lanes_{1};  ///< that are taken, a bit each
   std::atomic<int> stage_{0}, units_{0};
   std::array<std::atomic<std::uint64_t>, kClaims> claimed_{};
   alignas(128) std::atomic<bool> open_{false};
@@ -175,6 +212,7 @@ struct Crew::Impl {
   Executor* given;
   std::unique_ptr<Executor> own;
   Board* board = new Board;
+  SpanRecorder* recorder = nullptr;
 };
 
 Crew::Crew(int threads, Executor* executor) : impl_(std::make_unique<Impl>()) {
@@ -190,6 +228,12 @@ void Crew::Follow(const Settings& settings) {
   const bool same = impl_->threads == settings.threads && impl_->given == settings.executor;
   if (!same) *this = Crew(settings.threads, settings.executor);
 }
+
+void Crew::RecordTo(SpanRecorder* recorder) {
+  impl_->recorder = recorder;
+  impl_->board->RecordTo(recorder);
+}
+SpanRecorder* Crew::recorder() const { return impl_->recorder; }
 
 void Crew::Call() {
   if (impl_->threads == 1) return;

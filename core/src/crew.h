@@ -5,6 +5,7 @@
 
 #include "cairn/executor.h"
 #include "cairn/settings.h"
+#include "cairn/spans.h"
 
 namespace cairn {
 
@@ -18,6 +19,8 @@ class StagedWork {
   /// Asked on the caller's thread before each stage, when all before it are done; false ends the
   /// work.
   virtual bool GoOn(int stage);
+  /// What a stage is in the record of a SpanRecorder.
+  virtual SpanLabel label(int) const { return {}; }
 
  protected:
   ~StagedWork() = default;
@@ -40,6 +43,10 @@ class Crew {
 
   /// Becomes that of the settings, if it is not already.
   void Follow(const Settings& settings);
+
+  /// Who takes down what is done from now on; nullptr: nobody. Not while helpers are here.
+  void RecordTo(SpanRecorder* recorder);
+  SpanRecorder* recorder() const;
 
   /// Calls helpers, who stay until Dismiss(). Run() does so itself where nobody did before.
   void Call();

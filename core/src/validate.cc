@@ -212,9 +212,10 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
 Status Validate(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
   const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay,
-               min_sweeps, threads, executor, omega, lifted_friction, acceleration, step_policy,
-               proximal, proximal_joints, refinements, active_tolerance] = settings;
-  static_cast<void>(executor);  // any will do
+               min_sweeps, threads, executor, spans, omega, lifted_friction, acceleration,
+               step_policy, proximal, proximal_joints, refinements, active_tolerance] = settings;
+  static_cast<void>(executor);  // any will do, and any of these
+  static_cast<void>(spans);
   const bool replays = replay == nullptr || replay->work >= 0;
   const bool enums =
       Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&

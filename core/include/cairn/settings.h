@@ -4,6 +4,7 @@
 #include "cairn/budget.h"
 #include "cairn/executor.h"
 #include "cairn/report.h"
+#include "cairn/spans.h"
 
 namespace cairn {
 
@@ -91,6 +92,9 @@ struct Settings {
   int threads = 1;
   /// Where the other threads come from; nullptr: oneTBB. Must outlive every Solve().
   Executor* executor = nullptr;
+  /// Takes down which thread did what when, on contact problems in blocks (SweepOrder::kColoured);
+  /// nullptr: nobody does. Must outlive every Solve(). No result depends on it.
+  SpanRecorder* spans = nullptr;
 
   /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
   double omega = 1;

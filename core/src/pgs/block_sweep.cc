@@ -49,6 +49,12 @@ class BlockSweeps::Pass final : public StagedWork {
     (kind_ == Kind::kMeasure ? kernels.measure : last)(work);
   }
 
+  SpanLabel label(int stage) const override {
+    const int sweep = kind_ == Kind::kSweeps ? made_ + stage / stages_of_sweep() : 0;
+    return {kind_ == Kind::kSweeps ? SpanKind::kSweep : SpanKind::kMeasure, sweep,
+            stage % stages_of_sweep()};
+  }
+
   bool GoOn(int stage) override {
     ChargeLast();
     const int sweeps = made_ + stage / stages_of_sweep();

@@ -111,6 +111,7 @@ bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const Block
       AddLane(block, lane, pair_of_lane_[static_cast<size_t>(b) * kLanes + lane], gram);
     }
   }
+  const SpanClock clock(crew != nullptr ? crew->recorder() : nullptr, 0, {SpanKind::kFactorise});
   return cholesky_.Factorise(crew);
 }
 

@@ -107,6 +107,9 @@ class FrontCholesky<T>::Stages final : public StagedWork {
   int stages() const override { return static_cast<int>(factor_.stages_.size()); }
   int units(int stage) const override { return factor_.stages_[stage].units; }
   bool GoOn(int) override { return fits(); }
+  SpanLabel label(int stage) const override {
+    return {SpanKind::kFactorise, factor_.stages_[stage].front};
+  }
 
   void Do(int stage, int unit) override {
     const Stage& now = factor_.stages_[stage];
