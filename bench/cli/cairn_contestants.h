@@ -38,6 +38,8 @@ class CairnContestant : public Contestant {
   void Begin(const Effort& effort, btContactSolverInfo* info) override;
   Work work() const override;
   std::string refusal() const override;
+  void RecordSpans(SpanRecorder* recorder) override { solver_.settings().spans = recorder; }
+  int threads() override { return solver_.settings().threads; }
 
  private:
   ObservedCairn solver_;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cairn/bullet/constraint_solver.h"
+#include "cairn/spans.h"
 #include "measure/observed.h"
 
 namespace cairn::cli {
@@ -46,6 +47,11 @@ class Contestant {
   /// Share of its calls that were left to another solver, in [0, 1]; none for solvers that do
   /// everything themselves.
   virtual std::optional<double> fallback_share() const { return {}; }
+
+  /// Takes down the spans of threads from now on, where the solver can; nullptr: no more.
+  virtual void RecordSpans(SpanRecorder*) {}
+  /// Threads that may work on a substep.
+  virtual int threads() { return 1; }
 
   /// Called with each solved group; none stops observing.
   virtual void Observe(Observer observer) = 0;

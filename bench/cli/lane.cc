@@ -52,7 +52,7 @@ Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOption
     : contestant_(choice.entry->make()),
       watched_(contestant_->solver()),
       world_(&watched_),
-      scene_(bench::Make(*scene.info)),
+      scene_(scene.make()),
       defaults_(world_.solver_info()),
       effort_(InitialEffort(choice, options)) {
   scene_->Build(&world_, {.size = scene.size, .seed = scene.seed});
@@ -64,6 +64,10 @@ Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOption
   if (IsFitted(choice, options)) {
     fit_.emplace(*options.budget);
     result_.effort = "iterations that fit " + FormatDuration(*options.budget);
+  }
+  if (options.timelines) {
+    timeline_.emplace(contestant_->threads());
+    contestant_->RecordSpans(timeline_->spans());
   }
   if (options.page) replay_.emplace().Take(world_);
 }
@@ -86,7 +90,9 @@ void Lane::Prepare(Observing observing) {
   }
   observed_.residual = 0;  // of a world in which nothing touches
   contestant_->Observe([this](const ContactProblem& problem, std::span<const double> impulses) {
+    const auto begin = Span::Clock::now();
     cli::Observe(problem, impulses, &observed_);
+    if (timeline_) timeline_->AddOwn("the tool measures; not counted", begin);
   });
 }
 
@@ -94,7 +100,9 @@ void Lane::Step(Observing observing) {
   if (failed()) return;
   Prepare(observing);
   scene_->BeforeStep(&world_, static_cast<int>(result_.frames.size()));
+  if (timeline_) timeline_->Begin();
   world_.Step();
+  if (timeline_) timeline_->End();
   const std::chrono::nanoseconds time = watched_.TakeTime() - contestant_->TakeObservingTime();
   if (fit_) {
     fit_->Learn(time);
@@ -126,6 +134,14 @@ void Lane::Record(std::chrono::nanoseconds time) {
   if (!replay_) return;
   replay_->Take(world_);
   result_.frames.back().facts = ReadFrameFacts(*scene_, world_);
+}
+
+void Lane::KeepTimeline(std::optional<int> wanted) {
+  if (!timeline_ || failed()) return;
+  const int frame = static_cast<int>(result_.frames.size()) - 1;
+  const double time = result_.frames.back().time;
+  const bool keep = wanted ? *wanted == frame : time > result_.timeline.time;
+  if (keep) result_.timeline = timeline_->Read(frame, time);
 }
 
 SolverResult Lane::Finish() {

@@ -40,6 +40,11 @@ class Lane {
   /// Settings of the world before the solver changed them.
   const btContactSolverInfo& defaults() const { return defaults_; }
 
+  /// Keeps what happened in the last frame, if it is the one to be shown: frames that the lane was
+  /// disturbed in are not.
+  void KeepTimeline(std::optional<int> wanted);
+  bool bullet_has_zones() const { return !timeline_ || timeline_->bullet_has_zones(); }
+
   /// Adds the velocity error of a sample [m/s].
   void AddError(double error) { result_.velocity_errors.push_back(error); }
   /// Adds what more and more effort came to on a sample.
@@ -61,6 +66,7 @@ class Lane {
   bool probing_ = false;
   Frame observed_;  ///< What observing found in this frame: residual, rows, islands.
   std::optional<ReplayRecorder> replay_;
+  std::optional<TimelineRecorder> timeline_;
   SolverResult result_;
 };
 

@@ -25,6 +25,9 @@ struct RunOptions {
   ProgressMode progress = ProgressMode::kAuto;
   /// Records what only the page shows: facts of each frame, motion, and error against time.
   bool page = false;
+  /// Records what threads do in each frame, and keeps the slowest frame, or this one.
+  bool timelines = false;
+  std::optional<int> trace_frame;
 };
 
 }  // namespace cairn::cli

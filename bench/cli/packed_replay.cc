@@ -125,7 +125,8 @@ Json Things(const SceneResult& scene) {
     shapes.push_back({{"kind", shape.kind}, {"numbers", shape.numbers}});
   }
   for (const Pose& pose : replay.still_poses) still.push_back(ToJson(pose));
-  return {{"shapes", shapes},
+  return {{"up", replay.up},
+          {"shapes", shapes},
           {"bodies", ToJson(replay.bodies)},
           {"still_bodies", ToJson(replay.still_bodies)},
           {"still_poses", still}};

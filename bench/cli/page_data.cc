@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -43,6 +44,29 @@ Json Facts(const SolverResult& solver) {
           {"joint_gap", fact(&FrameFacts::joint_gap)}};
 }
 
+/// Names and kinds once, and of every span: name, kind, begin, end, sweep, colour.
+Json ToJson(const Timeline& timeline) {
+  std::vector<std::string> names, kinds;
+  const auto number = [](std::vector<std::string>* list, const std::string& name) {
+    const auto place = std::find(list->begin(), list->end(), name);
+    if (place != list->end()) return place - list->begin();
+    list->push_back(name);
+    return static_cast<std::ptrdiff_t>(list->size()) - 1;
+  };
+  Json workers = Json::array();
+  for (const auto& worker : timeline.workers) {
+    Json spans = Json::array();
+    for (const TimelineSpan& span : worker) {
+      spans.push_back({number(&names, span.name), number(&kinds, span.kind),
+                       std::round(span.begin * 1e4) / 1e4, std::round(span.end * 1e4) / 1e4,
+                       span.sweep, span.colour});
+    }
+    workers.push_back(spans);
+  }
+  return {{"frame", timeline.frame}, {"time", Short(timeline.time)}, {"names", names},
+          {"kinds", kinds},          {"workers", workers},           {"dropped", timeline.dropped}};
+}
+
 Json Curves(const SolverResult& solver) {
   Json curves = Json::array();
   for (const std::vector<CurvePoint>& curve : solver.curves) {
@@ -66,7 +90,8 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
           {"time", PerFrame(solver, [](const Frame& frame) { return frame.time; })},
           {"residual", PerFrame(solver, [](const Frame& frame) { return frame.residual; })},
           {"facts", Facts(solver)},
-          {"curves", Curves(solver)}};
+          {"curves", Curves(solver)},
+          {"timeline", ToJson(solver.timeline)}};
 }
 
 Json ToJson(const SceneResult& scene, const RunResult& run) {
@@ -80,6 +105,7 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
           {"bodies", scene.bodies},
           {"residual_every", scene.observed_every},
           {"untimed", untimed},
+          {"bullet_has_zones", scene.bullet_has_zones},
           {"solvers", solvers},
           {"replay", PackReplay(scene, kReplayBytes / run.scenes.size())}};
 }

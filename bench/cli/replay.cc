@@ -45,6 +45,11 @@ ReplayBody ReplayRecorder::Describe(const btCollisionShape& shape) {
 
 void ReplayRecorder::AddNewBodies(const bench::World& world) {
   if (replay_.frames.empty()) {
+    const btVector3 gravity = world.bullet()->getGravity();
+    if (!gravity.fuzzyZero()) {
+      const btVector3 up = -gravity.normalized();
+      replay_.up = {float(up.x()), float(up.y()), float(up.z())};
+    }
     const btCollisionObjectArray& objects = world.bullet()->getCollisionObjectArray();
     for (int i = 0; i < objects.size(); ++i) {
       if (!objects[i]->isStaticOrKinematicObject()) continue;

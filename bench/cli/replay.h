@@ -44,6 +44,7 @@ struct ReplayFrame {
 
 /// The motion of a world.
 struct Replay {
+  std::array<float, 3> up{0, 1, 0};  ///< Against gravity.
   std::vector<ReplayShape> shapes;
   std::vector<ReplayBody> bodies;        ///< Dynamic ones.
   std::vector<ReplayBody> still_bodies;  ///< Static ones, in their place.

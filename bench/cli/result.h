@@ -11,6 +11,7 @@
 #include "cli/frame_facts.h"
 #include "cli/replay.h"
 #include "cli/run_context.h"
+#include "cli/timeline.h"
 
 namespace cairn::cli {
 
@@ -60,7 +61,8 @@ struct SolverResult {
   std::optional<bool> standing;  ///< Only where the scene is something that can fall.
   /// For each sample, from the least effort on; with RunOptions::page.
   std::vector<std::vector<CurvePoint>> curves;
-  Replay replay;  ///< With RunOptions::page.
+  Replay replay;      ///< With RunOptions::page.
+  Timeline timeline;  ///< Of one frame, with RunOptions::timelines.
 };
 
 /// A state that every solver was given.
@@ -77,6 +79,7 @@ struct SceneResult {
   int bodies = 0, joints = 0;
   double mass_ratio = kNotMeasured;  ///< Of the heaviest body and the lightest.
   int observed_every = 1;            ///< The residual was measured in every k-th frame.
+  bool bullet_has_zones = true;      ///< Bullet's profiler calls its hooks, as far as is known.
   std::vector<Sample> samples;
   std::vector<SolverResult> solvers;
 };

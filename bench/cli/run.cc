@@ -48,7 +48,11 @@ class SceneRun {
     if (plan_.IsSample(frame) || plan_.IsWarmUp(frame)) Probe(frame);
     const auto observing =
         frame % result_.observed_every == 0 ? Lane::Observing::kOn : Lane::Observing::kOff;
-    for (const auto& lane : lanes_) lane->Step(observing);
+    const bool disturbed = plan_.IsSample(frame) || plan_.IsWarmUp(frame);
+    for (const auto& lane : lanes_) {
+      lane->Step(observing);
+      if (!disturbed || options_.trace_frame) lane->KeepTimeline(options_.trace_frame);
+    }
   }
 
   bool AllFailed() const {
@@ -57,6 +61,7 @@ class SceneRun {
   }
 
   SceneResult Finish() {
+    result_.bullet_has_zones = lanes_.front()->bullet_has_zones();
     for (const auto& lane : lanes_) result_.solvers.push_back(lane->Finish());
     return std::move(result_);
   }

@@ -14,20 +14,22 @@
 #include "cli/duration.h"
 #include "cli/failure.h"
 #include "cli/html_report.h"
+#include "cli/imported_scene.h"
 #include "cli/json_output.h"
 #include "cli/output_file.h"
 #include "cli/run.h"
 #include "cli/run_tables.h"
+#include "cli/trace_file.h"
 
 namespace cairn::cli {
 namespace {
 
 /// What was typed behind the options of `cairn run`.
 struct RunWords {
-  std::vector<std::string> scenes;
+  std::vector<std::string> scenes, imports;
   std::string solvers = "bullet-si,bullet-nncg,bullet-dantzig,cairn";
   std::string budget, iterations, frames = "300", size, seed = "0", samples = "8";
-  std::string json, csv, markdown, report;
+  std::string json, csv, markdown, report, trace, trace_frame;
   OutputWords output;
 };
 
@@ -51,6 +53,12 @@ RunOptions Check(const RunWords& words) {
   options.seed = ParseCount("--seed", words.seed, 0, 1'000'000'000,
                             "0: the scene as designed, else displaced by up to 0.1 mm");
   options.scenes = ParseScenes(words.scenes, words.size, options.seed);
+  for (const std::string& path : words.imports) {
+    options.scenes.push_back(ImportScene(path, options.seed));
+  }
+  if (options.scenes.empty()) {
+    throw Failure(kUsage, "run needs a scene, or a world that Bullet saved: --import FILE");
+  }
   options.solvers = ParseSolvers(words.solvers);
   if (!words.budget.empty()) options.budget = ParseDuration("--budget", words.budget);
   if (!words.iterations.empty()) {
@@ -61,6 +69,13 @@ RunOptions Check(const RunWords& words) {
   options.samples = static_cast<int>(ParseCount("--samples", words.samples, 0, 1000,
                                                 "frames at which the velocity error is measured"));
   options.progress = ParseProgress(words.output);
+  options.page = !words.report.empty();
+  options.timelines = options.page || !words.trace.empty();
+  if (!words.trace_frame.empty()) {
+    if (words.trace.empty()) throw Failure(kUsage, "--trace-frame needs --trace FILE");
+    options.trace_frame = static_cast<int>(ParseCount("--trace-frame", words.trace_frame, 0,
+                                                      options.frames - 1, "a frame of the run"));
+  }
 
   const auto is_fit = [](const IterationRule& rule) {
     return rule.kind == IterationRule::Kind::kFit;
@@ -76,13 +91,13 @@ RunOptions Check(const RunWords& words) {
 }
 
 int DoRun(const RunWords& words, const std::string& command) {
-  RunOptions options = Check(words);
-  options.page = !words.report.empty();
+  const RunOptions options = Check(words);
   const std::pair<std::string, std::string (*)(const RunResult&)> files[] = {
       {words.json, &ToJson},
       {words.csv, &ToCsv},
       {words.markdown, &ToMarkdown},
-      {words.report, &ToHtml}};
+      {words.report, &ToHtml},
+      {words.trace, &ToTrace}};
   for (const auto& [path, format] : files) {
     if (!path.empty()) CheckWritable(path);
   }
@@ -104,8 +119,11 @@ Command AddRunCommand(CLI::App* app) {
       "Simulate scenes with several solvers and measure time, error and what became of them");
   run->footer(kRunNotes);
   run->add_option("scene", words->scenes, "Scenes to run; 'all' for every one")
-      ->required()
       ->type_name("SCENE...");
+  run->add_option("--import", words->imports,
+                  "A world that Bullet saved (.bullet; saveBullet() of PyBullet), as a scene")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   const auto add = [run](const char* name, std::string* word, const char* help, const char* type) {
     AddText(run, name, word, help, type);
   };
@@ -125,6 +143,9 @@ Command AddRunCommand(CLI::App* app) {
   add("--csv", &words->csv, "Write a line for each scene, solver and frame", "FILE");
   add("--markdown", &words->markdown, "Write the tables as Markdown", "FILE");
   add("--report", &words->report, "Write a page with pictures (HTML, needs no network)", "FILE");
+  add("--trace", &words->trace,
+      "Write what each thread did in the slowest frame, for ui.perfetto.dev (JSON)", "FILE");
+  add("--trace-frame", &words->trace_frame, "The frame for --trace instead of the slowest", "N");
   AddOutputWords(run, &words->output);
   return {run, [words](const std::string& typed) { return DoRun(*words, typed); }};
 }

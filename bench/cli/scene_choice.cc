@@ -35,7 +35,10 @@ std::vector<SceneChoice> ParseScenes(std::span<const std::string> words, std::st
                                      std::uint64_t seed) {
   std::vector<SceneChoice> choices;
   for (const bench::SceneInfo* scene : FindScenes(words)) {
-    SceneChoice choice{.info = scene, .size = scene->default_size, .seed = seed};
+    SceneChoice choice{.info = std::make_shared<bench::SceneInfo>(*scene),
+                       .make = [scene] { return bench::Make(*scene); },
+                       .size = scene->default_size,
+                       .seed = seed};
     if (!size.empty()) {
       choice.size = static_cast<int>(ParseCount("--size", size, scene->min_size, scene->max_size,
                                                 fmt::format("size of {}", scene->name)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,7 +16,9 @@ namespace cairn::cli {
 
 /// A scene of a run.
 struct SceneChoice {
-  const bench::SceneInfo* info;
+  std::shared_ptr<const bench::SceneInfo> info;
+  /// A new instance of the scene.
+  std::function<std::unique_ptr<bench::Scene>()> make;
   int size = 0;
   std::uint64_t seed = 0;
 };

@@ -133,15 +133,15 @@ double TotalMass(const World& world) {
 }
 
 double TotalEnergy(const World& world) {
-  const double gravity = -world.bullet()->getGravity().y();
+  const btVector3 gravity = world.bullet()->getGravity();
   double energy = 0;
   for (const btRigidBody* body : world.dynamic_bodies()) {
     const btMatrix3x3& basis = body->getCenterOfMassTransform().getBasis();
     const btVector3 spin = basis.transpose() * body->getAngularVelocity();
     const btVector3 inertia = body->getLocalInertia();
     energy += 0.5 * body->getMass() * body->getLinearVelocity().length2() +
-              0.5 * (inertia * spin).dot(spin) +
-              body->getMass() * gravity * body->getCenterOfMassPosition().y();
+              0.5 * (inertia * spin).dot(spin) -
+              body->getMass() * gravity.dot(body->getCenterOfMassPosition());
   }
   return energy;
 }

@@ -32,7 +32,7 @@ double TopHeight(const World& world);
 /// Mass of the dynamic bodies [kg].
 double TotalMass(const World& world);
 
-/// Kinetic energy plus potential energy against y = 0 of the dynamic bodies [J].
+/// Kinetic energy plus potential energy against the origin of the dynamic bodies [J].
 double TotalEnergy(const World& world);
 
 /// FNV-1a of the bytes of all poses and velocities of dynamic bodies: equal for equal bits.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/world.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace cairn::bench {
@@ -24,6 +25,7 @@ World::World(btConstraintSolver* solver, btScalar time_step) : time_step_(time_s
 World::~World() {
   // A body must not know a joint any more when it dies. The rest the order of the members does.
   for (btTypedConstraint* joint : joint_pointers_) dynamics_->removeConstraint(joint);
+  for (const auto& release : releases_) release();
 }
 
 void World::Step() {
@@ -109,6 +111,22 @@ void World::AddPit(btScalar half_side, btScalar wall_height) {
   for (const btScalar side : {btScalar(-1), btScalar(1)}) {
     AddBox(across_x, {.pose = At(side * middle, y, 0)});
     AddBox(across_z, {.pose = At(0, y, side * middle)});
+  }
+}
+
+void World::Adopt(std::function<void()> release) {
+  releases_.push_back(std::move(release));
+  const auto add = [](auto* thing, auto* list) {
+    if (std::find(list->begin(), list->end(), thing) == list->end()) list->push_back(thing);
+  };
+  const btAlignedObjectArray<btRigidBody*>& bodies = dynamics_->getNonStaticRigidBodies();
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (bodies[i]->isStaticOrKinematicObject()) continue;
+    bodies[i]->setActivationState(DISABLE_DEACTIVATION);
+    add(bodies[i], &dynamic_bodies_);
+  }
+  for (int i = 0; i < dynamics_->getNumConstraints(); ++i) {
+    add(dynamics_->getConstraint(i), &joint_pointers_);
   }
 }
 

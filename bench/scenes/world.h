@@ -3,6 +3,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -65,6 +66,10 @@ class World {
 
   btTypedConstraint* AddJoint(std::unique_ptr<btTypedConstraint> joint, ConnectedBodies connected);
 
+  /// Takes bodies and joints that somebody else put into bullet() among those below. They stay with
+  /// their owner, who takes them out in `release`, called before the world goes.
+  void Adopt(std::function<void()> release);
+
   /// Bodies with mass, and joints, each in the order in which they were added.
   std::span<btRigidBody* const> dynamic_bodies() const { return dynamic_bodies_; }
   std::span<btTypedConstraint* const> joints() const { return joint_pointers_; }
@@ -92,6 +97,7 @@ class World {
   std::vector<btRigidBody*> dynamic_bodies_;
   std::vector<btTypedConstraint*> joint_pointers_;
   std::unique_ptr<btDiscreteDynamicsWorld> dynamics_;
+  std::vector<std::function<void()>> releases_;
 };
 
 /// No rotation, at (x, y, z) [m].

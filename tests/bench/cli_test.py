@@ -126,7 +126,7 @@ class RefusalTest(CairnTest):
         self.assertIn("twice", self.refused(USAGE, "run", "tower", "--solver", "cairn,cairn"))
 
     def test_a_file_that_cannot_be_written_is_refused_before_the_run_with_its_path(self):
-        for option in ("--json", "--csv", "--markdown", "--report"):
+        for option in ("--json", "--csv", "--markdown", "--report", "--trace"):
             path = self.path("missing/file")
             message = self.refused(BAD_INPUT, "run", "castle", "--frames", "100000", option, path)
             self.assertIn(path, message)
@@ -236,6 +236,68 @@ class RunTest(CairnTest):
                               "--solver", "bullet-si,cairn-pgs")["scenes"][0]
         first, second = (s["frames"]["residual_m_s"][0] for s in scene["solvers"])
         self.assertAlmostEqual(first / second, 1, delta=0.5)
+
+
+class TraceTest(CairnTest):
+    def trace(self, *arguments):
+        self.fine(*SMALL, "--solver", "bullet-si,cairn", "--trace", self.path("t.json"), *arguments)
+        with open(self.path("t.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    @staticmethod
+    def spans(trace, process):
+        return [event for event in trace["traceEvents"]
+                if event["ph"] == "X" and event["pid"] == process]
+
+    def test_each_solver_is_a_process_whose_spans_lie_within_each_other(self):
+        trace = self.trace()
+        names = [event["args"]["name"] for event in trace["traceEvents"]
+                 if event["name"] == "process_name"]
+        self.assertEqual([name.split(",")[0] for name in names], ["tower: bullet-si", "tower: cairn"])
+        for process in (1, 2):
+            spans = sorted(self.spans(trace, process), key=lambda e: (e["tid"], e["ts"], -e["dur"]))
+            self.assertGreater(len(spans), 0)
+            ends = []
+            for span in spans:
+                ends = [(t, end) for t, end in ends if t == span["tid"] and end > span["ts"]]
+                end = span["ts"] + span["dur"]
+                if ends:
+                    # rounded to nanoseconds, twice
+                    self.assertLessEqual(end, ends[-1][1] + 0.01, span)
+                ends.append((span["tid"], end))
+
+    def test_the_phases_of_cairn_and_the_zones_of_bullet_are_there(self):
+        trace = self.trace()
+        ours = {event["name"] for event in self.spans(trace, 2)}
+        self.assertLessEqual({"read contacts", "set-up", "sweep", "residual", "write back"}, ours)
+        sweeps = {event["args"]["sweep"] for event in self.spans(trace, 2) if event["name"] == "sweep"}
+        self.assertIn(9, sweeps, "ten sweeps, counted from 0")
+        zones = {event["name"] for event in self.spans(trace, 1) if event["cat"] == "Bullet"}
+        if not any("without its profiler" in note for note in trace["otherData"]["notes"]):
+            self.assertIn("solveGroup", zones)
+
+    def test_a_frame_can_be_chosen(self):
+        for name in (event["args"]["name"] for event in self.trace("--trace-frame", "3")["traceEvents"]
+                     if event["name"] == "process_name"):
+            self.assertIn("frame 3,", name)
+        self.assertIn("--trace-frame", self.refused(USAGE, *SMALL, "--trace", self.path("t"),
+                                                    "--trace-frame", "12"))
+        self.assertIn("--trace", self.refused(USAGE, *SMALL, "--trace-frame", "1"))
+
+    def test_recording_changes_no_result(self):
+        plain, traced = (self.run_json(*SMALL, "--solver", "cairn", *more)["scenes"][0]["solvers"][0]
+                         for more in ([], ["--trace", self.path("t.json")]))
+        self.assertEqual(plain["facts"], traced["facts"])
+        self.assertEqual(plain["frames"]["residual_m_s"], traced["frames"]["residual_m_s"])
+
+
+class ImportTest(CairnTest):
+    def test_what_is_no_saved_world_is_refused_with_its_name(self):
+        with open(self.path("junk.bullet"), "wb") as file:
+            file.write(b"no world at all" * 100)
+        for name in ("missing.bullet", "junk.bullet"):
+            message = self.refused(BAD_INPUT, "run", "--import", self.path(name))
+            self.assertRegex(message, name + "|libbullet-extras-dev")
 
 
 class FailureTest(CairnTest):

@@ -50,7 +50,7 @@ export function histogram(host, scene, page) {
   addChart(grid, {
     title: "The tail: share of frames that took longer", lines: times.map(tailLine),
     x: { log: true, label: "time in the solver [ms]" },
-    y: { log: true, high: 1.2, label: "share of frames", format: (v) => `${Number((100 * v).toPrecision(2))} %` },
+    y: { log: true, high: 2.5, label: "share of frames", format: (v) => (v > 1 ? "" : `${Number((100 * v).toPrecision(2))} %`) },
     limits: budgetLimits(page, "x"),
   });
   host.append(legend(host, scene.solvers.map((_, i) => i)));

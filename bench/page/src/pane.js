@@ -61,13 +61,16 @@ export class Pane {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(42, 4 / 3, view.radius / 100, view.radius * 60);
+    this.camera.up.set(...replay.up);
     this.camera.position.copy(view.position);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.copy(view.target);
     this.controls.update();
     const sun = new DirectionalLight("#ffffff", 1.9);
-    sun.position.set(0.6, 1, 0.45);
-    this.scene.add(sun, new HemisphereLight("#ffffff", "#7d8288", 1.5));
+    sun.position.copy(view.sun);
+    const sky = new HemisphereLight("#ffffff", "#7d8288", 1.5);
+    sky.position.set(...replay.up);
+    this.scene.add(sun, sky);
     const still = new Bodies(this.scene, replay, replay.still_bodies, new MeshLambertMaterial({ side: DoubleSide }));
     this.still = still;
     this.stillPoses = replay.still_poses.map(matrixOf);

@@ -5,7 +5,8 @@ import { element } from "./element.js";
 import { legend } from "./legend.js";
 import { firstOfKinds, kindOf } from "./numbers.js";
 
-const TARGETS = [1e-1, 1e-2, 1e-3];
+const TARGETS = [1, 0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3, 1e-4, 1e-5];
+const MOST_PICTURES = 3;
 const FURTHEST = 100;
 
 /** The least time in which a curve got to an error; infinity if it did not. */
@@ -42,21 +43,30 @@ function lineOf(found, solved, style) {
   return line;
 }
 
+/** The hardest targets that any solver reached on half of the states; the easiest if none was. */
+function targetsOf(solvers) {
+  const reached = TARGETS.filter((target) => {
+    const { solved, states } = ratios(solvers, target);
+    return solved > 0 && 2 * solved >= states;
+  });
+  return reached.length ? reached.slice(-MOST_PICTURES) : TARGETS.filter((t) => ratios(solvers, t).solved > 0).slice(0, 1);
+}
+
 export function profile(host, scene) {
-  const kinds = firstOfKinds(scene.solvers).filter((i) => scene.solvers[i].curves.length);
-  if (kinds.length === 0) return;
+  const kinds = firstOfKinds(scene.solvers).filter((i) => scene.solvers[i].curves.some((c) => c.length));
+  const solvers = kinds.map((i) => scene.solvers[i]);
+  const targets = kinds.length ? targetsOf(solvers) : [];
+  if (targets.length === 0) {
+    host.append(element("p", { className: "soft", textContent: `No solver got below ${TARGETS[0]} m/s on any state.` }));
+    return;
+  }
   const grid = element("div", { className: "plots" });
   host.append(grid);
-  for (const target of TARGETS) {
-    const { found, solved, states } = ratios(kinds.map((i) => scene.solvers[i]), target);
-    const title = `Time to a velocity error of ${target} m/s`;
-    if (solved === 0) {
-      grid.append(element("figure", {}, element("div", { className: "plot-title", textContent: title }),
-        element("p", { className: "soft", textContent: "No solver got there on any state, with what it was given." })));
-      continue;
-    }
+  for (const target of targets) {
+    const { found, solved, states } = ratios(solvers, target);
     addChart(grid, {
-      title, height: 220, lines: kinds.map((i, k) => lineOf(found[k], solved, i)),
+      title: `Time to a velocity error of ${target} m/s`, height: 220,
+      lines: kinds.map((i, k) => lineOf(found[k], solved, i)),
       note: `${solved} of ${states} states: those that any solver brought there.`,
       x: { log: true, low: 1, high: FURTHEST, label: "time, as a multiple of the quickest solver's" },
       y: { low: 0, high: 1.05, label: "share of states" },

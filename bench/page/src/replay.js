@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two solvers side by side at the same frame, seen by the same camera.
-import { Vector3 } from "three";
+import { Quaternion, Vector3 } from "three";
 import { element, onWidth } from "./element.js";
 import { paintScale } from "./error_colours.js";
 import { format } from "./numbers.js";
@@ -11,14 +11,17 @@ import { onTheme } from "./theme.js";
 const FRAMES_PER_SECOND = 60;
 
 /** A camera that sees all bodies as they were built. */
-function viewOf(poses) {
+function viewOf(poses, up) {
   const low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
   poses.at(0, (_, position) => { low.min(position); high.max(position); });
   if (low.x > high.x) low.set(-1, 0, -1), high.set(1, 1, 1);
   const target = low.clone().add(high).multiplyScalar(0.5);
   const radius = Math.max(0.6, 0.5 * low.distanceTo(high) + 0.4);
-  const direction = new Vector3(0.62, 0.5, 1).normalize();
-  return { target, radius, position: target.clone().addScaledVector(direction, 3 * radius) };
+  // as if y were up, turned to what is
+  const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...up));
+  const direction = new Vector3(0.62, 0.5, 1).normalize().applyQuaternion(turn);
+  const sun = new Vector3(0.6, 1, 0.45).applyQuaternion(turn);
+  return { target, radius, sun, position: target.clone().addScaledVector(direction, 3 * radius) };
 }
 
 function selectOf(scene, chosen) {
@@ -54,7 +57,7 @@ class View {
   }
 
   start() {
-    const view = viewOf(this.posesOf(Number(this.sides[0].select.value)));
+    const view = viewOf(this.posesOf(Number(this.sides[0].select.value)), this.scene.replay.up);
     for (const side of this.sides) {
       side.pane = new Pane(side.canvas, this.scene.replay, view);
       side.pane.resize(side.canvas.parentElement.clientWidth);
