@@ -33,4 +33,5 @@ echo "== ${run[*]}"
 "${run[@]}"
 
 echo
-echo "Written: out/castle.html (the page), out/castle.json, out/castle.csv"
+echo "Written: out/castle.json, out/castle.csv and the page:"
+echo "  $PWD/out/castle.html"

@@ -6,6 +6,7 @@ import re
 import tree
 
 NEEDS_LICENCE = tree.CPP + (".py",)
+PICTURES = (".png",)
 LOOSE_END = re.compile(r"\b(TODO(?!\(#\d+\))|FIXME|XXX)\b")
 SELF = os.path.relpath(os.path.abspath(__file__), tree.ROOT).replace(os.sep, "/")
 
@@ -35,7 +36,7 @@ def check(path):
 
 def main():
     top = [name for name in os.listdir(tree.ROOT) if os.path.isfile(os.path.join(tree.ROOT, name))]
-    paths = sorted(top) + tree.walk(tree.TEXT_FOLDERS)
+    paths = [path for path in sorted(top) + tree.walk(tree.TEXT_FOLDERS) if not path.endswith(PICTURES)]
     tree.finish([error for path in paths for error in check(path)], len(paths))
 
 

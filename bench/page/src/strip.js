@@ -4,7 +4,7 @@ import { element, onWidth, sharpCanvas } from "./element.js";
 import { format } from "./numbers.js";
 import { colour, css, onTheme } from "./theme.js";
 
-const ROW = 44, LEFT = 132, RIGHT = 10, BOTTOM = 22;
+const ROW = 44, LEFT = 132, RIGHT = 16, BOTTOM = 22;
 
 /** The time that fills a row [ms]: the budget twice, or what is longest. */
 function fullTime(scene, page) {
