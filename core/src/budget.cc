@@ -69,6 +69,8 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
     if (kind == WorkKind::kSweep) {
       Learn(ns, kPriceMemory, &prices_->sweep_ns);
     } else {
+      steps_predicted_ += units * prices_->step_ns;
+      steps_time_ += now - last_;
       Learn(ns, kStepMemory, &prices_->step_ns);
     }
   }
@@ -119,6 +121,10 @@ bool BudgetMeter::Fits(double step_units, double sweep_units) {
 StopReason BudgetMeter::stop_reason() const {
   const bool timed = budget_.kind() == Budget::Kind::kTime || replayed_ != nullptr;
   return timed ? StopReason::kTimeSpent : StopReason::kWorkSpent;
+}
+
+std::chrono::nanoseconds BudgetMeter::steps_predicted() const {
+  return std::chrono::nanoseconds(std::llround(steps_predicted_));
 }
 
 std::chrono::nanoseconds BudgetMeter::elapsed() const {

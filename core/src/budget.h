@@ -51,6 +51,9 @@ class BudgetMeter {
   std::int64_t work() const { return static_cast<std::int64_t>(work_); }
   /// 0 unless the budget is a time.
   std::chrono::nanoseconds elapsed() const;
+  /// What the steps charged so far were predicted to take, and took; likewise.
+  std::chrono::nanoseconds steps_predicted() const;
+  std::chrono::nanoseconds steps_time() const { return steps_time_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -67,6 +70,8 @@ class BudgetMeter {
   Replay* record_ = nullptr;
   Clock::time_point start_, last_;
   double work_ = 0;
+  double steps_predicted_ = 0;  ///< [ns]
+  std::chrono::nanoseconds steps_time_{0};
   bool spent_ = false;
 };
 

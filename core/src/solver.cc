@@ -210,6 +210,8 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
   SumUp(report);
   report->work = meter.work();
   report->elapsed = meter.elapsed();
+  report->step_predicted = meter.steps_predicted();
+  report->step_time = meter.steps_time();
   impl_->blocks.memories().EndFrame();
 }
 

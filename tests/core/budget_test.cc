@@ -247,6 +247,22 @@ Scene MillionRows() {
 
 // Copying in and out is not part of the budget, and takes a second here. 60 s is for sanitizers on
 // a busy machine: a whole solve takes hours.
+TEST(Budget, OfTimeSaysWhatStepsTookAndWereToTake) {
+  const Scene scene = BigPile(3);
+  const Budget day = Budget::Time(std::chrono::hours(24));
+  const Report report = test::Solve(Within(test::AlwaysSteps(20), day), scene).report;
+  EXPECT_GT(report.factorisations, 0);
+  EXPECT_GT(report.step_predicted, nanoseconds(0));
+  EXPECT_GT(report.step_time, nanoseconds(0));
+  EXPECT_LT(report.step_time, report.elapsed);
+
+  for (const Settings& without : {Within(test::PlainSweeps(20), day), test::AlwaysSteps(20)}) {
+    const Report none = test::Solve(without, scene).report;
+    EXPECT_EQ(none.step_predicted, nanoseconds(0));
+    EXPECT_EQ(none.step_time, nanoseconds(0));
+  }
+}
+
 TEST(Budget, EndsAProblemOfAMillionRows) {
   Scene scene = MillionRows();
   const auto start = std::chrono::steady_clock::now();

@@ -132,6 +132,9 @@ struct [[nodiscard]] Report {
   std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
   Replay replay;                        ///< Contact problems with Budget::Time.
   std::chrono::nanoseconds elapsed{0};  ///< 0 unless the budget is a time.
+  /// What subspace steps were predicted to take, with the factorisations that they made, and what
+  /// they took, without the sweeps around them: contact problems with Budget::Time, else 0.
+  std::chrono::nanoseconds step_predicted{0}, step_time{0};
   Phases phases;                        ///< Problems in matrix form, 0 unless the budget is a time.
   std::vector<IslandReport> islands;
 
