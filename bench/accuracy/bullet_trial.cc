@@ -23,11 +23,31 @@ class Stopwatch {
   double start_ = cli::Now(cli::SolverClock::kThreadCpu);
 };
 
+Eigen::Vector3d ToEigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+bool Moves(const Body& body) { return body.inv_mass > 0 || !body.inv_inertia.isZero(0); }
+
 }  // namespace
+
+std::vector<Velocity> RecordedSubstep::Changes() const {
+  std::vector<Velocity> changes(starts.size());
+  for (size_t i = 0; i < starts.size(); ++i) {
+    const Start& start = starts[i];
+    if (start.body == nullptr) continue;
+    changes[i] = {.linear = ToEigen(start.body->getLinearVelocity()) - start.velocity.linear,
+                  .angular = ToEigen(start.body->getAngularVelocity()) - start.velocity.angular};
+  }
+  return changes;
+}
 
 class BulletTrial::Solver : public bench::RowRecorder {
  public:
   void Follow(Follower follower) { follower_ = std::move(follower); }
+  /// Records the next group, once.
+  void Record(RecordedSubstep* to) {
+    recorded_ = to;
+    RecordTo(to != nullptr ? &to->frame : nullptr);
+  }
   BulletTime TakeTime() { return std::exchange(time_, {}); }
 
  protected:
@@ -47,6 +67,7 @@ class BulletTrial::Solver : public bench::RowRecorder {
                                              btTypedConstraint** constraints, int num_constraints,
                                              const btContactSolverInfo& info,
                                              btIDebugDraw* debug_drawer) override {
+    if (recorded_ != nullptr) ReadStarts();
     if (follower_) {
       rows_.Read(pools_, info, bullet::SweepLimits::kNone);
       rows_.ReadVelocities(pools_);
@@ -94,10 +115,22 @@ class BulletTrial::Solver : public bench::RowRecorder {
   }
 
  private:
+  void ReadStarts() {
+    for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) {
+      const btSolverBody& body = m_tmpSolverBodyPool[i];
+      recorded_->starts.push_back(
+          {body.m_originalBody,
+           {.linear = ToEigen(body.m_linearVelocity + body.m_externalForceImpulse),
+            .angular = ToEigen(body.m_angularVelocity + body.m_externalTorqueImpulse)}});
+    }
+    recorded_ = nullptr;
+  }
+
   const bullet::RowPools pools_{
       &m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool, &m_tmpSolverContactConstraintPool,
       &m_tmpSolverContactFrictionConstraintPool, &m_tmpSolverContactRollingFrictionConstraintPool};
   Follower follower_;
+  RecordedSubstep* recorded_ = nullptr;
   bullet::GroupRows rows_;
   BulletTime time_;
 };
@@ -114,13 +147,16 @@ BulletTime BulletTrial::Solve(const bench::Substep& substep, const btContactSolv
   return solver_->TakeTime();
 }
 
-bench::ContactFrame BulletTrial::Rows(const bench::Substep& substep,
-                                      const btContactSolverInfo& info) {
-  bench::ContactFrame frame;
-  solver_->RecordTo(&frame);
+RecordedSubstep BulletTrial::Record(const bench::Substep& substep,
+                                    const btContactSolverInfo& info) {
+  RecordedSubstep recorded;
+  solver_->Record(&recorded);
   Solve(substep, info, 1);
-  solver_->RecordTo(nullptr);
-  return frame;
+  solver_->Record(nullptr);
+  for (size_t i = 0; i < recorded.starts.size(); ++i) {
+    if (!Moves(recorded.frame.bodies[i])) recorded.starts[i].body = nullptr;
+  }
+  return recorded;
 }
 
 void BulletTrial::Follow(const bench::Substep& substep, const btContactSolverInfo& info, int most,

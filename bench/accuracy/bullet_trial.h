@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "cairn/contact_problem.h"
 #include "measure/substep.h"
@@ -23,6 +24,21 @@ struct BulletTime {
   double total() const { return set_up + split + iterations + finish; }
 };
 
+/// A substep as rows, and where its bodies were.
+struct RecordedSubstep {
+  struct Start {
+    const btRigidBody* body = nullptr;  ///< None for what does not move.
+    Velocity velocity;                  ///< That of the body, and what forces add to it.
+  };
+
+  bench::ContactFrame frame;  ///< With impulses as Bullet's warm start leaves them.
+  std::vector<Start> starts;  ///< One per body of the frame.
+
+  /// What the solver that wrote the bodies last changed, one per body of the frame; they are
+  /// floats.
+  std::vector<Velocity> Changes() const;
+};
+
 /// Bullet's stock solver, btSequentialImpulseConstraintSolver, on a captured substep.
 class BulletTrial {
  public:
@@ -31,9 +47,8 @@ class BulletTrial {
 
   /// Solves the substep once, from its captured state. All groups are one.
   BulletTime Solve(const bench::Substep& substep, const btContactSolverInfo& info, int iterations);
-  /// The rows of the substep with the impulses of Bullet's warm start, by a Solve() of their own.
-  /// Empty if nothing touches.
-  bench::ContactFrame Rows(const bench::Substep& substep, const btContactSolverInfo& info);
+  /// By a Solve() of its own. Without rows if nothing touches.
+  RecordedSubstep Record(const bench::Substep& substep, const btContactSolverInfo& info);
 
   /// Velocity changes of the warm start, which is iteration 0, and after each iteration from 1 on;
   /// false ends it.

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "accuracy/state_run.h"
@@ -14,71 +15,94 @@
 namespace cairn::accuracy {
 namespace {
 
-/// Rounds that are not kept: memory is allocated, prices are learnt.
-constexpr int kWarmUps = 2;
+/// Frames in which memory is allocated and prices are learnt.
+constexpr int kLearning = 10;
+/// A sample that was interrupted moves to the next frame, so often at most: a shadow must see each
+/// frame once.
+constexpr int kTries = 8;
 
-/// The solvers of a scene. Cairn's live through all of its states.
-class StateMeter {
+/// Times of Bullet's parts.
+class BulletTimes {
  public:
-  explicit StateMeter(const StatesOptions& options) : options_(options) {}
+  explicit BulletTimes(size_t most) : most_(most) {}
 
-  StateResult Measure(bench::Substep* substep, const btContactSolverInfo& info,
-                      const bench::ContactFrame& before, const bench::ContactFrame& frame) {
-    const VelocityNorm norm(frame.bodies);
-    StateResult result;
-    result.bodies = static_cast<int>(frame.bodies.size());
-    result.rows = static_cast<int>(frame.rows.size());
-    result.reference = Converge(frame, norm, 1e6 * options_.reference);
-    const std::vector<Velocity> truth = std::exchange(result.reference.velocities, {});
-
-    const auto error = [&](std::span<const Velocity> v) { return norm.Between(v, truth); };
-    Compare(*substep, info, before, frame, error, &result);
-    result.floor = SolveFloor(before, frame, options_.rounds);
-    FollowBullet(*substep, info, error, &result);
-    return result;
+  void Add(const BulletTime& time) {
+    if (times_.size() == most_) times_.erase(times_.begin());
+    times_.push_back(time);
+  }
+  BulletTime Median() const {
+    return {.set_up = MedianOf(&BulletTime::set_up),
+            .split = MedianOf(&BulletTime::split),
+            .iterations = MedianOf(&BulletTime::iterations),
+            .finish = MedianOf(&BulletTime::finish)};
   }
 
  private:
-  /// Times of Bullet's parts on one state.
-  struct Times {
-    std::vector<double> set_up, split, iterations, finish;
+  double MedianOf(double BulletTime::*part) const {
+    std::vector<double> values;
+    for (const BulletTime& time : times_) values.push_back(time.*part);
+    return cli::Median(values);
+  }
 
-    void Add(const BulletTime& time) {
-      set_up.push_back(time.set_up);
-      split.push_back(time.split);
-      iterations.push_back(time.iterations);
-      finish.push_back(time.finish);
-    }
-    BulletTime Median() const {
-      return {cli::Median(set_up), cli::Median(split), cli::Median(iterations),
-              cli::Median(finish)};
-    }
-  };
+  size_t most_;
+  std::vector<BulletTime> times_;
+};
 
-  /// All solvers in turn, so that what the machine does meanwhile happens to all.
-  template <class Error>
-  void Compare(const bench::Substep& substep, const btContactSolverInfo& info,
-               const bench::ContactFrame& before, const bench::ContactFrame& frame, Error error,
-               StateResult* result) {
-    Times times;
-    for (int i = 0; i <= options_.rounds; ++i) {
-      const BulletTime time = bullet_.Solve(substep, info, options_.iterations);
-      if (i > 0) times.Add(time);
-    }
-    result->bullet_time = times.Median();
-    for (int round = -kWarmUps; round < options_.rounds; ++round) {
-      for (size_t k = 0; k < kShares.size() * kKinds.size(); ++k) {
-        const size_t at = (k + static_cast<size_t>(round + kWarmUps)) % (kShares.size() * 2);
-        CairnTrial& trial = trials_[at / 2][at % 2];
-        trial.Round(before, frame, result->Budget(kShares[at / 2]));
-        if (round >= 0) trial.Keep(error(trial.velocities()));
-      }
+/// The solvers of a scene, which live as long as it does.
+class StateMeter {
+ public:
+  explicit StateMeter(const StatesOptions& options)
+      : options_(options), recent_(static_cast<size_t>(options.rounds)) {}
+
+  /// Every frame of the run, once: the shadows solve it in Bullet's time, in turn.
+  void Pass(const bench::Substep& substep, const btContactSolverInfo& info) {
+    recent_.Add(bullet_.Solve(substep, info, options_.iterations));
+    Shade(substep, info, recent_.Median(), [](Kind) {});
+  }
+
+  /// The same, and what they made of it is kept.
+  StateResult Sample(const bench::Substep& substep, const btContactSolverInfo& info) {
+    BulletTimes times(static_cast<size_t>(options_.rounds));
+    for (int i = 0; i < options_.rounds; ++i) {
       times.Add(bullet_.Solve(substep, info, options_.iterations));
-      result->bullet_time = times.Median();
+      recent_.Add(times.Median());
     }
-    for (size_t s = 0; s < kShares.size(); ++s) {
-      for (size_t k = 0; k < kKinds.size(); ++k) result->cairn[s][k] = trials_[s][k].Take();
+    StateResult result;
+    result.bullet_time = times.Median();
+    const RecordedSubstep recorded = bullet_.Record(substep, info);
+    result.bodies = static_cast<int>(recorded.frame.bodies.size());
+    result.rows = static_cast<int>(recorded.frame.rows.size());
+    Shade(substep, info, result.bullet_time,
+          [&](Kind kind) { changes_[static_cast<size_t>(kind)] = recorded.Changes(); });
+    for (size_t k = 0; k < kKinds.size(); ++k) result.cairn[k].frame = frames_[k];
+    return result;
+  }
+
+  /// Fills in the errors of the last Sample().
+  void Judge(const bench::Substep& substep, const btContactSolverInfo& info, StateResult* result) {
+    const bench::ContactFrame frame = bullet_.Record(substep, info).frame;
+    const VelocityNorm norm(frame.bodies);
+    result->reference = Converge(frame, norm, 1e6 * options_.reference);
+    const std::vector<Velocity> truth = std::exchange(result->reference.velocities, {});
+    const auto error = [&](std::span<const Velocity> v) { return norm.Between(v, truth); };
+    for (size_t k = 0; k < kKinds.size(); ++k) result->cairn[k].error = error(changes_[k]);
+    FollowBullet(substep, info, error, result);
+  }
+
+  /// What the shadow with steps did last.
+  const ShadowFrame& steps() const { return frames_[static_cast<size_t>(Kind::kSteps)]; }
+
+ private:
+  template <class Look>
+  void Shade(const bench::Substep& substep, const btContactSolverInfo& info, const BulletTime& time,
+             Look look) {
+    // in turn, so that none always finds the state in the caches
+    for (size_t i = 0; i < kKinds.size(); ++i) {
+      const size_t k = (i + turn_) % kKinds.size();
+      frames_[k] = shadows_[k].Solve(substep, info, time.total());
+      look(kKinds[k]);
     }
+    ++turn_;
   }
 
   /// Until Bullet is as good as the best of the others.
@@ -93,12 +117,10 @@ class StateMeter {
                      if (iteration == options_.iterations)
                        result->bullet_error = result->last_error;
                      bool all_matched = true;
-                     for (auto& of_share : result->cairn) {
-                       for (CairnResult& cairn : of_share) {
-                         const bool matches = result->last_error.rms <= cairn.error.rms;
-                         if (!cairn.worth && matches) cairn.worth = iteration;
-                         all_matched = all_matched && cairn.worth.has_value();
-                       }
+                     for (CairnResult& cairn : result->cairn) {
+                       const bool matches = result->last_error.rms <= cairn.error.rms;
+                       if (!cairn.worth && matches) cairn.worth = iteration;
+                       all_matched = all_matched && cairn.worth.has_value();
                      }
                      return !all_matched || iteration < options_.iterations;
                    });
@@ -106,55 +128,93 @@ class StateMeter {
 
   const StatesOptions& options_;
   BulletTrial bullet_;
-  std::array<std::array<CairnTrial, kKinds.size()>, kShares.size()> trials_ = {
-      {{CairnTrial(Kind::kSweeps), CairnTrial(Kind::kSteps)},
-       {CairnTrial(Kind::kSweeps), CairnTrial(Kind::kSteps)}}};
+  BulletTimes recent_;
+  std::array<Shadow, kKinds.size()> shadows_ = {Shadow(SettingsOf(Kind::kSweeps)),
+                                                Shadow(SettingsOf(Kind::kAccelerated)),
+                                                Shadow(SettingsOf(Kind::kSteps))};
+  std::array<ShadowFrame, kKinds.size()> frames_;
+  std::array<std::vector<Velocity>, kKinds.size()> changes_;
+  size_t turn_ = 0;
+};
+
+/// Goes through a run, and decides which of its frames are sampled.
+class Walk {
+ public:
+  Walk(const cli::SceneChoice& scene, const StatesOptions& options)
+      : plan_(options.samples, options.frames),
+        run_(scene, options.advance),
+        meter_(options),
+        result_{.scene = scene, .states = {}, .empty = 0, .frames = {}} {}
+
+  int frame() const { return run_.frame(); }
+  bool IsSample() const { return due_ || plan_.IsSample(frame()); }
+
+  void Step() {
+    if (plan_.IsSample(frame())) {
+      due_ = true;
+      tries_ = 0;
+    }
+    run_.StepAfter([this, at = frame()](bench::Substep* substep, const btContactSolverInfo& info) {
+      if (due_) {
+        Sample(*substep, info, at);
+      } else {
+        meter_.Pass(*substep, info);
+      }
+      if (at >= kLearning && !meter_.steps().empty) result_.frames.push_back(meter_.steps());
+    });
+  }
+
+  SceneStates Take() { return std::move(result_); }
+
+ private:
+  void Sample(const bench::Substep& substep, const btContactSolverInfo& info, int at) {
+    StateResult state = meter_.Sample(substep, info);
+    const bool last = ++tries_ == kTries || plan_.IsSample(at + 1);
+    if (state.Interrupted() && !last) return;
+    due_ = false;
+    if (state.rows == 0) {
+      ++result_.empty;
+      return;
+    }
+    meter_.Judge(substep, info, &state);
+    state.frame = at;
+    result_.states.push_back(std::move(state));
+  }
+
+  cli::SamplePlan plan_;
+  StateRun run_;
+  StateMeter meter_;
+  bool due_ = false;  ///< A sample is.
+  int tries_ = 0;
+  SceneStates result_;
 };
 
 }  // namespace
 
 double StateResult::LeastError() const {
   double least = bullet_error.rms;
-  for (const auto& of_share : cairn) {
-    for (const CairnResult& result : of_share) least = std::min(least, result.error.rms);
-  }
+  for (const CairnResult& result : cairn) least = std::min(least, result.error.rms);
   return least;
 }
 
-bool StateResult::WorseThanSweeps(Share share) const {
-  return Of(share, Kind::kSteps).error.rms >
-         1.05 * Of(share, Kind::kSweeps).most_rms + reference.spread.rms;
+bool StateResult::StepsAreWorseThan(Kind other) const {
+  return Of(Kind::kSteps).error.rms > 1.05 * Of(other).error.rms + reference.spread.rms;
+}
+
+bool StateResult::Interrupted() const {
+  return std::any_of(cairn.begin(), cairn.end(),
+                     [](const CairnResult& result) { return result.frame.time.preempted; });
 }
 
 SceneStates MeasureStates(const cli::SceneChoice& scene, const StatesOptions& options,
                           const std::function<void(const std::string&)>& show) {
-  SceneStates result{.scene = scene, .states = {}, .empty = 0};
-  const cli::SamplePlan plan(options.samples, options.frames);
-  StateRun run(scene, options.advance);
-  StateMeter meter(options);
-  bench::ContactFrame before;
-  while (run.frame() < options.frames) {
-    const int frame = run.frame();
-    show(fmt::format("{}: frame {} of {}{}", scene.info->name, frame, options.frames,
-                     plan.IsSample(frame) ? ", measuring" : ""));
-    if (plan.IsWarmUp(frame)) {
-      before = run.Record();
-    } else if (plan.IsSample(frame)) {
-      BulletTrial recorder;
-      run.StepAfter([&](bench::Substep* substep, const btContactSolverInfo& info) {
-        const bench::ContactFrame rows = recorder.Rows(*substep, info);
-        if (rows.rows.empty()) {
-          ++result.empty;
-          return;
-        }
-        result.states.push_back(meter.Measure(substep, info, before, rows));
-        result.states.back().frame = frame;
-      });
-    } else {
-      run.Step();
-    }
+  Walk walk(scene, options);
+  while (walk.frame() < options.frames) {
+    show(fmt::format("{}: frame {} of {}{}", scene.info->name, walk.frame(), options.frames,
+                     walk.IsSample() ? ", measuring" : ""));
+    walk.Step();
   }
-  return result;
+  return walk.Take();
 }
 
 }  // namespace cairn::accuracy

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/bullet_trial.h"
-#include "accuracy/cairn_trial.h"
 #include "accuracy/converged.h"
+#include "accuracy/shadow.h"
+#include "accuracy/velocity_norm.h"
 #include "cli/scene_choice.h"
 
 namespace cairn::accuracy {
@@ -16,52 +18,48 @@ namespace cairn::accuracy {
 struct StatesOptions {
   std::vector<cli::SceneChoice> scenes;
   int frames = 240;
-  int samples = 6;      ///< Of these frames, one in four at most.
+  int samples = 12;     ///< Of these frames, one in four at most.
   int iterations = 10;  ///< Of Bullet, on each state.
   int advance = 200;    ///< Iterations of Bullet that make the states.
-  int rounds = 7;       ///< Of each solver on each state.
+  int rounds = 7;       ///< Of Bullet on each state that is sampled, to time it.
   int most = 5000;      ///< Iterations of Bullet that are followed.
   int reference = static_cast<int>(kReferenceWork / 1e6);  ///< Millions of relaxations of rows.
 };
 
-/// What of Bullet's time is Cairn's budget.
-enum class Share {
-  kWhole,       ///< All that its solver takes: set-up, iterations, write-back.
-  kIterations,  ///< Only the iterations.
+/// What Cairn made of a state.
+struct CairnResult {
+  VelocityDistance error;
+  ShadowFrame frame;
+  std::optional<int> worth;  ///< Iterations of Bullet until its rms is no larger, if it got there.
 };
-inline constexpr std::array kShares = {Share::kWhole, Share::kIterations};
-inline constexpr std::array kKinds = {Kind::kSweeps, Kind::kSteps};
 
 /// One state and what everyone made of it.
 struct StateResult {
   int frame = 0, bodies = 0, rows = 0;
-  BulletTime bullet_time;         ///< Medians.
+  BulletTime bullet_time;         ///< Medians; the total is the budget.
   VelocityDistance bullet_error;  ///< After StatesOptions::iterations.
   VelocityDistance start_error;   ///< Of the warm start, before any iteration.
   int followed = 0;               ///< Iterations of Bullet that were looked at,
   VelocityDistance last_error;    ///< and its error after them.
   Converged reference;            ///< Less its velocities.
-  double floor = 0;               ///< SolveFloor() [ms].
-  std::array<std::array<CairnResult, kKinds.size()>, kShares.size()> cairn;
+  std::array<CairnResult, kKinds.size()> cairn;
 
-  const CairnResult& Of(Share share, Kind kind) const {
-    return cairn[static_cast<size_t>(share)][static_cast<size_t>(kind)];
-  }
-  /// [ms]
-  double Budget(Share share) const {
-    return share == Share::kWhole ? bullet_time.total() : bullet_time.iterations;
-  }
+  const CairnResult& Of(Kind kind) const { return cairn[static_cast<size_t>(kind)]; }
   /// Smallest rms of anyone.
   double LeastError() const;
-  /// Steps are worse than sweeps alone by more than sweeps differ from round to round and
-  /// solutions from one another.
-  bool WorseThanSweeps(Share share) const;
+  /// Steps are worse than the other kind by more than a twentieth and what solutions differ.
+  bool StepsAreWorseThan(Kind other) const;
+  /// A solve of Cairn's was taken off its core, whose wall clock went on.
+  bool Interrupted() const;
 };
 
 struct SceneStates {
   cli::SceneChoice scene;
   std::vector<StateResult> states;
   int empty = 0;  ///< Samples in which nothing touched.
+  /// Frames in which something touched, Cairn with steps, less the first few, in which memory is
+  /// allocated and prices are learnt.
+  std::vector<ShadowFrame> frames;
 };
 
 /// @param show  is told what is being done

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
+#include "accuracy/frame_statistics.h"
 #include "accuracy/goals.h"
 #include "accuracy/report.h"
 #include "accuracy/states_output.h"
@@ -13,26 +14,36 @@ using cli::Number;
 using Json = nlohmann::ordered_json;
 
 Json ToJson(const CairnResult& cairn) {
+  const ShadowFrame& frame = cairn.frame;
   return {{"error", ToJson(cairn.error)},
-          {"least_rms_m_s", Number(cairn.least_rms)},
-          {"most_rms_m_s", Number(cairn.most_rms)},
-          {"residual_max_m_s", Number(cairn.residual_max)},
-          {"cpu_ms", Number(cairn.cpu)},
-          {"wall_ms", Number(cairn.wall)},
-          {"sweeps", Number(cairn.sweeps)},
-          {"factorisations", Number(cairn.factorisations)},
-          {"steps_accepted", Number(cairn.accepted)},
-          {"steps_restored", Number(cairn.restored)},
-          {"rounds", cairn.rounds},
-          {"interrupted", cairn.preempted},
+          {"residual_max_m_s", Number(frame.residual_max)},
+          {"cpu_ms", Number(frame.time.cpu)},
+          {"wall_ms", Number(frame.time.wall)},
+          {"interrupted", frame.time.preempted},
+          {"build_ms", Number(frame.build)},
+          {"solve_ms", Number(frame.solve)},
+          {"write_ms", Number(frame.write)},
+          {"sweeps", frame.sweeps},
+          {"factorisations", frame.factorisations},
+          {"steps_accepted", frame.accepted},
+          {"steps_restored", frame.restored},
           {"worth_bullet_iterations", cli::Maybe(cairn.worth)}};
 }
 
-Json ToJson(const StateResult& state, Share share) {
-  return {{"budget_ms", Number(state.Budget(share))},
-          {"sweeps", ToJson(state.Of(share, Kind::kSweeps))},
-          {"steps", ToJson(state.Of(share, Kind::kSteps))},
-          {"worse_than_sweeps", state.WorseThanSweeps(share)}};
+Json ToJson(const Tail& tail) {
+  return {{"p50", Number(tail.p50)}, {"p99", Number(tail.p99)}, {"max", Number(tail.max)}};
+}
+
+Json ToJson(const FrameStatistics& frames) {
+  return {{"frames", frames.frames},
+          {"interrupted", frames.interrupted},
+          {"share_with_a_step", Number(frames.stepped)},
+          {"share_of_steps_restored", Number(frames.restored)},
+          {"factorisations_per_frame", Number(frames.factorisations)},
+          {"cpu_over_budget_us", ToJson(frames.cpu_over)},
+          {"wall_over_budget_us", ToJson(frames.wall_over)},
+          {"wall_over_budget_uninterrupted_us", ToJson(frames.wall_over_calm)},
+          {"step_prediction_error", ToJson(frames.step_error)}};
 }
 
 Json ToJson(const StateResult& state) {
@@ -57,9 +68,12 @@ Json ToJson(const StateResult& state) {
             {"finish_ms", Number(time.finish)},
             {"followed_iterations", state.followed},
             {"error_after_them", ToJson(state.last_error)}}},
-          {"cairn_floor_ms", Number(state.floor)},
-          {"in_whole_time", ToJson(state, Share::kWhole)},
-          {"in_time_of_iterations", ToJson(state, Share::kIterations)}};
+          {"budget_ms", Number(time.total())},
+          {"sweeps", ToJson(state.Of(Kind::kSweeps))},
+          {"accelerated", ToJson(state.Of(Kind::kAccelerated))},
+          {"steps", ToJson(state.Of(Kind::kSteps))},
+          {"worse_than_sweeps", state.StepsAreWorseThan(Kind::kSweeps)},
+          {"worse_than_accelerated", state.StepsAreWorseThan(Kind::kAccelerated)}};
 }
 
 }  // namespace
@@ -74,6 +88,7 @@ Json ToJson(std::span<const SceneStates> scenes, const StatesOptions& options) {
                     {"seed", scene.scene.seed},
                     {"goal", Number(GoalOf(scene.scene.info->name))},
                     {"empty_samples", scene.empty},
+                    {"frames_with_steps", ToJson(StatisticsOf(scene.frames))},
                     {"states", states}});
   }
   return {{"frames", options.frames},

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/frame_statistics.h"
 #include "accuracy/goals.h"
 #include "accuracy/report.h"
 #include "cli/statistics.h"
@@ -22,29 +23,44 @@ using States = std::vector<StateResult>;
 /// Spread of the reference over an error that can be told from it.
 constexpr double kMostSpread = 0.1;
 
-/// The median over states of a figure.
+/// A figure of each state.
+template <class Figure>
+std::vector<double> Of(const States& states, Figure figure) {
+  std::vector<double> values;
+  for (const StateResult& state : states) values.push_back(static_cast<double>(figure(state)));
+  return values;
+}
+
 template <class Figure>
 double MedianOf(const States& states, Figure figure) {
-  std::vector<double> values;
-  for (const StateResult& state : states) values.push_back(figure(state));
-  return cli::Median(values);
+  return cli::Median(Of(states, figure));
 }
 
 template <class Figure>
 double LargestOf(const States& states, Figure figure) {
-  std::vector<double> values;
-  for (const StateResult& state : states) values.push_back(figure(state));
-  return cli::Largest(values);
+  return cli::Largest(Of(states, figure));
 }
 
-std::string Worth(const States& states, Share share, Kind kind) {
+/// "0.12 (0.05..0.3)": median, smallest and largest.
+template <class Figure>
+std::string Range(const States& states, Figure figure) {
+  const std::vector<double> values = Of(states, figure);
+  return fmt::format("{} ({}..{})", Digits(cli::Median(values)), Digits(cli::Quantile(values, 0)),
+                     Digits(cli::Largest(values)));
+}
+
+double Rms(const StateResult& state, Kind kind) { return state.Of(kind).error.rms; }
+
+double ToBullet(const StateResult& state, Kind kind) {
+  return Rms(state, kind) / state.bullet_error.rms;
+}
+
+std::string Worth(const States& states, Kind kind) {
   const double median = MedianOf(states, [&](const StateResult& state) {
-    return state.Of(share, kind).worth ? *state.Of(share, kind).worth : kInfinity;
+    return state.Of(kind).worth ? *state.Of(kind).worth : kInfinity;
   });
   if (std::isfinite(median)) return fmt::format("{:.0f}", median);
-  const double followed =
-      MedianOf(states, [](const StateResult& state) { return double(state.followed); });
-  return fmt::format("> {:.0f}", followed);
+  return fmt::format("> {:.0f}", MedianOf(states, [](const StateResult& s) { return s.followed; }));
 }
 
 std::string Verdict(double ratio, double goal) {
@@ -52,80 +68,110 @@ std::string Verdict(double ratio, double goal) {
   return ratio <= goal ? "met" : "missed";
 }
 
-void AddErrors(const SceneStates& scene, Share share, MarkdownTable* table) {
-  const States& states = scene.states;
-  const auto error = [&](Kind kind) {
-    return [share, kind](const StateResult& s) { return s.Of(share, kind).error; };
-  };
-  const auto rms = [](auto get) { return [get](const StateResult& s) { return get(s).rms; }; };
-  const auto bullet = [](const StateResult& s) { return s.bullet_error; };
-  const auto sweeps = error(Kind::kSweeps), steps = error(Kind::kSteps);
-  const auto ratio = [&](auto above, auto below) {
-    return MedianOf(states, [&](const StateResult& s) { return above(s).rms / below(s).rms; });
-  };
-  const double goal = GoalOf(scene.scene.info->name), reached = ratio(steps, bullet);
-  const auto worse = std::count_if(states.begin(), states.end(),
-                                   [&](const StateResult& s) { return s.WorseThanSweeps(share); });
-  const auto of_steps = [&](double CairnResult::*figure) {
-    return MedianOf(states,
-                    [&](const StateResult& s) { return s.Of(share, Kind::kSteps).*figure; });
-  };
-  const auto stepped = std::count_if(states.begin(), states.end(), [&](const StateResult& s) {
-    return s.Of(share, Kind::kSteps).accepted > 0;
-  });
-  table->Add(
-      {std::string(scene.scene.info->name), Digits(MedianOf(states, rms(bullet))),
-       Digits(MedianOf(states, rms(sweeps))), Digits(MedianOf(states, rms(steps))),
-       Digits(ratio(sweeps, bullet)), Digits(reached), Digits(goal), Verdict(reached, goal),
-       Digits(MedianOf(states,
-                       [&](const StateResult& s) { return steps(s).max / s.bullet_error.max; })),
-       Worth(states, share, Kind::kSweeps), Worth(states, share, Kind::kSteps),
-       Digits(MedianOf(states,
-                       [&](const StateResult& s) { return s.Of(share, Kind::kSweeps).sweeps; })),
-       Digits(of_steps(&CairnResult::sweeps)), Digits(of_steps(&CairnResult::factorisations)),
-       Digits(of_steps(&CairnResult::accepted)), Digits(of_steps(&CairnResult::restored)),
-       fmt::format("{}/{}", stepped, states.size()), fmt::format("{}/{}", worse, states.size())});
+template <class Is>
+std::string Count(const States& states, Is is) {
+  return fmt::format("{}/{}", std::count_if(states.begin(), states.end(), is), states.size());
 }
 
-void PrintErrors(std::span<const SceneStates> scenes, Share share) {
-  MarkdownTable table({"scene", "Bullet", "sweeps", "steps", "sweeps/Bullet", "steps/Bullet",
-                       "goal", "", "of max", "sweeps worth", "steps worth", "sweeps made",
-                       "with steps", "factorised", "accepted", "restored", "stepped", "worse"});
+std::string Percent(double share) {
+  return std::isnan(share) ? "-" : fmt::format("{:.0f} %", 100 * share);
+}
+
+void PrintErrors(std::span<const SceneStates> scenes) {
+  MarkdownTable table({"scene", "Bullet", "sweeps", "accelerated", "steps", "sweeps/Bullet",
+                       "accelerated/Bullet", "steps/Bullet", "goal", "", "of max",
+                       "worse than sweeps", "worse than accelerated"});
   for (const SceneStates& scene : scenes) {
-    if (!scene.states.empty()) AddErrors(scene, share, &table);
+    const States& states = scene.states;
+    if (states.empty()) continue;
+    const auto ratio = [](Kind kind) {
+      return [kind](const StateResult& s) { return ToBullet(s, kind); };
+    };
+    const auto rms = [&](Kind kind) {
+      return Digits(MedianOf(states, [kind](const StateResult& s) { return Rms(s, kind); }));
+    };
+    const auto worse = [&](Kind than) {
+      return Count(states, [than](const StateResult& s) { return s.StepsAreWorseThan(than); });
+    };
+    const double goal = GoalOf(scene.scene.info->name);
+    const double reached = MedianOf(states, ratio(Kind::kSteps));
+    table.Add({std::string(scene.scene.info->name),
+               Digits(MedianOf(states, [](const StateResult& s) { return s.bullet_error.rms; })),
+               rms(Kind::kSweeps), rms(Kind::kAccelerated), rms(Kind::kSteps),
+               Range(states, ratio(Kind::kSweeps)), Range(states, ratio(Kind::kAccelerated)),
+               Range(states, ratio(Kind::kSteps)), Digits(goal), Verdict(reached, goal),
+               Digits(MedianOf(states,
+                               [](const StateResult& s) {
+                                 return s.Of(Kind::kSteps).error.max / s.bullet_error.max;
+                               })),
+               worse(Kind::kSweeps), worse(Kind::kAccelerated)});
   }
-  fmt::print("\n## Errors in {}\n\n", share == Share::kWhole
-                                          ? "the time of Bullet's whole solver"
-                                          : "the time of Bullet's iterations alone");
+  fmt::print("\n## Errors in the time of Bullet's solver\n\n");
   table.Print();
+}
+
+void PrintWork(std::span<const SceneStates> scenes) {
+  MarkdownTable table({"scene", "sweeps worth", "accelerated worth", "steps worth", "sweeps made",
+                       "accelerated", "with steps"});
+  for (const SceneStates& scene : scenes) {
+    const States& states = scene.states;
+    if (states.empty()) continue;
+    const auto made = [&](Kind kind) {
+      return Range(states, [kind](const StateResult& s) { return s.Of(kind).frame.sweeps; });
+    };
+    table.Add({std::string(scene.scene.info->name), Worth(states, Kind::kSweeps),
+               Worth(states, Kind::kAccelerated), Worth(states, Kind::kSteps), made(Kind::kSweeps),
+               made(Kind::kAccelerated), made(Kind::kSteps)});
+  }
+  fmt::print("\n## What was done in that time\n\n");
+  table.Print();
+  fmt::print("- worth: iterations of Bullet until its error is no larger; made: sweeps\n");
+}
+
+std::string Spread(const Tail& tail) {
+  return fmt::format("{:.0f} / {:.0f} / {:.0f}", tail.p50, tail.p99, tail.max);
+}
+
+void PrintFrames(std::span<const SceneStates> scenes) {
+  MarkdownTable table({"scene", "frames", "stepped", "restored", "factorised", "CPU over us",
+                       "wall over us", "wall over us, calm", "interrupted", "prediction p50",
+                       "p99"});
+  for (const SceneStates& scene : scenes) {
+    const FrameStatistics frames = StatisticsOf(scene.frames);
+    if (frames.frames == 0) continue;
+    table.Add({std::string(scene.scene.info->name), fmt::format("{}", frames.frames),
+               Percent(frames.stepped), Percent(frames.restored), Digits(frames.factorisations),
+               Spread(frames.cpu_over), Spread(frames.wall_over), Spread(frames.wall_over_calm),
+               fmt::format("{}", frames.interrupted), Percent(frames.step_error.p50),
+               Percent(frames.step_error.p99)});
+  }
+  fmt::print("\n## All frames, with steps\n\n");
+  table.Print();
+  fmt::print(
+      "- stepped: frames in which a subspace step ran; restored: of all steps, those undone; "
+      "factorised: per frame\n"
+      "- over: time above the budget in us, p50 / p99 / max, negative inside it; calm: of frames "
+      "that were not interrupted\n"
+      "- prediction: |time / predicted time - 1| of the steps of a frame, of frames that were not "
+      "interrupted\n");
 }
 
 void PrintTimes(std::span<const SceneStates> scenes) {
   MarkdownTable table({"scene", "bodies", "rows", "states", "Bullet ms", "set-up", "iterations",
-                       "split", "finish", "Cairn floor ms", "steps/whole", "steps/iterations",
-                       "interrupted", "reference max", "spread", "converged"});
+                       "split", "finish", "Cairn's set-up ms", "its write-back ms", "interrupted",
+                       "reference max", "spread", "converged"});
   for (const SceneStates& scene : scenes) {
     const States& states = scene.states;
     if (states.empty()) continue;
     const auto share_of = [&](double BulletTime::*part) {
-      return fmt::format("{:.0f} %", 100 * MedianOf(states, [&](const StateResult& s) {
-                                       return s.bullet_time.*part / s.bullet_time.total();
-                                     }));
+      return Percent(MedianOf(states, [&](const StateResult& s) {
+        return s.bullet_time.*part / s.bullet_time.total();
+      }));
     };
-    const auto kept = [&](Share share) {
-      return fmt::format("{:.2f}", MedianOf(states, [&](const StateResult& s) {
-                           return s.Of(share, Kind::kSteps).cpu / s.Budget(share);
-                         }));
+    const auto own = [&](double ShadowFrame::*part) {
+      return Digits(
+          MedianOf(states, [&](const StateResult& s) { return s.Of(Kind::kSteps).frame.*part; }));
     };
-    const double interrupted = LargestOf(states, [](const StateResult& s) {
-      int count = 0;
-      for (const auto& of_share : s.cairn) {
-        for (const CairnResult& cairn : of_share) count += cairn.preempted;
-      }
-      return count;
-    });
-    const auto converged = std::count_if(states.begin(), states.end(),
-                                         [](const StateResult& s) { return s.reference.reached; });
     table.Add(
         {std::string(scene.scene.info->name),
          Digits(MedianOf(states, [](const StateResult& s) { return s.bodies; })),
@@ -133,12 +179,12 @@ void PrintTimes(std::span<const SceneStates> scenes) {
          fmt::format("{}", states.size()),
          Digits(MedianOf(states, [](const StateResult& s) { return s.bullet_time.total(); })),
          share_of(&BulletTime::set_up), share_of(&BulletTime::iterations),
-         share_of(&BulletTime::split), share_of(&BulletTime::finish),
-         Digits(MedianOf(states, [](const StateResult& s) { return s.floor; })),
-         kept(Share::kWhole), kept(Share::kIterations), fmt::format("{:.0f}", interrupted),
+         share_of(&BulletTime::split), share_of(&BulletTime::finish), own(&ShadowFrame::build),
+         own(&ShadowFrame::write),
+         Count(states, [](const StateResult& s) { return s.Interrupted(); }),
          Digits(LargestOf(states, [](const StateResult& s) { return s.reference.residual_max; })),
          Digits(MedianOf(states, [](const StateResult& s) { return s.reference.spread.rms; })),
-         fmt::format("{}/{}", converged, states.size())});
+         Count(states, [](const StateResult& s) { return s.reference.reached; })});
   }
   fmt::print("\n## What was compared\n\n");
   table.Print();
@@ -171,29 +217,31 @@ void PrintDoubts(const SceneStates& scene) {
 
 void PrintStates(std::span<const SceneStates> scenes, const StatesOptions& options) {
   fmt::print(
-      "- states: {} of {} frames of each scene, which Bullet makes with {} iterations; every "
-      "solver "
-      "starts each with the same warm start\n"
+      "- states: {} of {} frames of each scene, which Bullet makes with {} iterations. Every "
+      "solver is a solver of the world there, from\n  contacts and joints to velocities, and "
+      "starts from the contact impulses of the state; nothing that it does stays\n"
+      "- Bullet: {} iterations; the CPU time of its whole solver (set-up, iterations, write-back; "
+      "median of {} solves, between samples of\n  the last {} frames) is Cairn's Budget::Time, "
+      "set-up and write-back included\n"
+      "- Cairn: the adapter in Mode::kFast, with sweeps, with accelerated sweeps, and with steps; "
+      "each solves every frame of the run once,\n  so that what a solver learns, and impulses of "
+      "joints, come from the frames before as in a game\n"
       "- error: of velocities against the converged reference, root mean square by mass and "
-      "inertia "
-      "[m/s]; medians over states, and of\n  ratios; 'of max': ratio steps/Bullet of the largest "
-      "error of a body\n"
-      "- Bullet: {} iterations; its time (CPU, median of {} rounds) is Cairn's Budget::Time, in "
-      "Solve() on the recorded rows: Cairn makes\n  no rows there, so the whole time flatters it, "
-      "and the time of the iterations alone has to pay for its own reading and writing\n"
-      "- worth: iterations of Bullet until its error is no larger; factorised, accepted, restored: "
-      "per Solve(); stepped: states with\n  a step accepted; worse: states in which steps are "
-      "worse than sweeps alone by more than noise\n",
-      options.samples, options.frames, options.advance, options.iterations, options.rounds);
-  for (const Share share : kShares) PrintErrors(scenes, share);
+      "inertia [m/s]; medians over states, and of\n  ratios with the smallest and the largest; 'of "
+      "max': ratio steps/Bullet of the largest error of a body; worse: states in which steps\n  "
+      "are worse by more than a twentieth and what solutions differ\n",
+      options.samples, options.frames, options.advance, options.iterations, options.rounds,
+      options.rounds);
+  PrintErrors(scenes);
+  PrintWork(scenes);
+  PrintFrames(scenes);
   PrintTimes(scenes);
   fmt::print(
-      "- floor: CPU time of a Solve() without sweeps; steps/whole, steps/iterations: CPU time that "
-      "Cairn took, over its budget\n"
-      "- interrupted: rounds of one state that never ran undisturbed; reference max: worst "
-      "residual "
-      "of the reference [m/s]; spread: rms to\n  the reference from a cold start [m/s]; converged: "
-      "states whose reference has a residual of at most {:g} m/s\n",
+      "- interrupted: states in which a solve was taken off its core in all frames that were "
+      "tried; "
+      "reference max: worst residual of the\n  reference [m/s]; spread: rms to the reference from "
+      "a "
+      "cold start [m/s]; converged: states whose reference has a residual of at most {:g} m/s\n",
       kConvergedTo);
   for (const SceneStates& scene : scenes) PrintDoubts(scene);
 }

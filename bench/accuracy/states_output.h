@@ -8,7 +8,7 @@
 
 namespace cairn::accuracy {
 
-/// How to read it, and a table for each share of Bullet's time and one of what was compared.
+/// How to read it, and tables of errors, work, frames and of what was compared.
 void PrintStates(std::span<const SceneStates> scenes, const StatesOptions& options);
 
 nlohmann::ordered_json ToJson(std::span<const SceneStates> scenes, const StatesOptions& options);

@@ -7,28 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
-#include "accuracy/bullet_trial.h"
-#include "accuracy/converged.h"
 #include "accuracy/grid.h"
-#include "accuracy/intervals.h"
-#include "accuracy/state_run.h"
-#include "accuracy/states.h"
 #include "accuracy/velocity_norm.h"
-#include "measure/reference.h"
 #include "scenes/facts.h"
 
 namespace cairn::accuracy {
 namespace {
 
 using testing::HasSubstr;
-
-cli::SceneChoice Scene(const char* name, int size) {
-  return {.info = bench::FindScene(name), .size = size, .seed = 0};
-}
 
 Body BodyOf(double mass, double inertia) {
   Body body;
@@ -69,156 +58,6 @@ TEST(VelocityNorm, CallsNanInfinitelyWrong) {
   wrong[0].angular.x() = std::numeric_limits<double>::quiet_NaN();
 
   EXPECT_EQ(VelocityNorm(bodies).Between(wrong, right).rms, kInfinity);
-}
-
-// P(Binomial(20, 1/2) <= 5) = 2.07 %, <= 6: 5.8 %. So from the 6th to the 15th of 20 values.
-TEST(Intervals, OfTheMedianOf20ValuesReachesFromThe6thToThe15th) {
-  std::vector<double> values(20);
-  std::iota(values.rbegin(), values.rend(), 1);
-
-  const Interval interval = MedianInterval(values);
-
-  EXPECT_EQ(interval.value, 10);
-  EXPECT_EQ(interval.low, 6);
-  EXPECT_EQ(interval.high, 15);
-}
-
-// P(Binomial(6, 1/2) = 0) = 1.6 % and P(Binomial(8, 1/2) <= 1) = 3.5 %, which is too much.
-TEST(Intervals, OfFewValuesReachFromTheSmallestToTheLargest) {
-  for (const int count : {2, 5, 6, 8}) {
-    std::vector<double> values(count);
-    std::iota(values.begin(), values.end(), 1);
-    EXPECT_EQ(MedianInterval(values).low, 1) << count;
-    EXPECT_EQ(MedianInterval(values).high, count) << count;
-  }
-  EXPECT_TRUE(std::isnan(MedianInterval({}).value));
-}
-
-// Wilson's interval of 0 of 20: [0, z^2 / (n + z^2)]; of 10 of 20 it is 1/2 -+ 0.2007.
-TEST(Intervals, OfSharesAreThoseOfWilson) {
-  EXPECT_EQ(ShareInterval(0, 20).low, 0);
-  EXPECT_NEAR(ShareInterval(0, 20).high, 3.8415 / 23.8415, 1e-4);
-  EXPECT_NEAR(ShareInterval(10, 20).low, 0.5 - 0.2007, 1e-4);
-  EXPECT_NEAR(ShareInterval(20, 20).low, 1 - 3.8415 / 23.8415, 1e-4);
-}
-
-/// The tenth frame of a small scene.
-class OneState : public testing::TestWithParam<const char*> {
- protected:
-  template <class Look>
-  void WithState(Look look) {
-    StateRun run(Scene(GetParam(), 5), 50);
-    for (int i = 0; i < 10; ++i) run.Step();
-    bool looked = false;
-    run.StepAfter([&](bench::Substep* substep, const btContactSolverInfo& info) {
-      const bench::ContactFrame frame = BulletTrial().Rows(*substep, info);
-      look(*substep, info, frame);
-      looked = true;
-    });
-    EXPECT_TRUE(looked);
-  }
-};
-
-INSTANTIATE_TEST_SUITE_P(Scenes, OneState, testing::Values("tower", "chain"),
-                         [](const auto& scene) { return std::string(scene.param); });
-
-/// Velocity of a substep's bodies after the solver wrote it back.
-std::vector<double> WrittenBack(const bench::Substep& substep) {
-  std::vector<double> values;
-  for (const Velocity& v : bench::ReadVelocities(substep.bodies())) {
-    for (int i = 0; i < 3; ++i) values.insert(values.end(), {v.linear[i], v.angular[i]});
-  }
-  return values;
-}
-
-TEST_P(OneState, FollowedIterationsAreThoseOfStockBullet) {
-  WithState([&](const bench::Substep& substep, const btContactSolverInfo& info, const auto&) {
-    btSequentialImpulseConstraintSolver stock;
-    btContactSolverInfo ten = info;
-    ten.m_numIterations = 10;
-    substep.Restore();
-    substep.SolveWith(&stock, ten, nullptr);
-    const std::vector<double> expected = WrittenBack(substep);
-
-    std::vector<int> iterations;
-    BulletTrial trial;
-    trial.Follow(substep, info, 1000, [&](int iteration, std::span<const Velocity>) {
-      iterations.push_back(iteration);
-      return iteration < 10;
-    });
-
-    EXPECT_EQ(iterations.size(), 11u);
-    EXPECT_EQ(iterations.front(), 0);
-    EXPECT_EQ(WrittenBack(substep), expected);
-  });
-}
-
-TEST_P(OneState, TrialsLeaveNoTrace) {
-  WithState([&](const bench::Substep& substep, const btContactSolverInfo& info,
-                const bench::ContactFrame& frame) {
-    BulletTrial trial;
-    const BulletTime time = trial.Solve(substep, info, 10);
-    EXPECT_GT(time.set_up, 0);
-    EXPECT_GT(time.iterations, 0);
-    EXPECT_GT(time.finish, 0);
-
-    const bench::ContactFrame again = trial.Rows(substep, info);
-    EXPECT_EQ(again.impulses, frame.impulses);
-    ASSERT_EQ(again.rows.size(), frame.rows.size());
-    for (size_t i = 0; i < frame.rows.size(); ++i) {
-      EXPECT_EQ(again.rows[i].target, frame.rows[i].target) << i;
-    }
-  });
-}
-
-// Bullet makes the same sweeps in floats: what is left after many is rounding. Were the reference
-// that of another problem, centimetres per second would be left.
-TEST_P(OneState, BulletConvergesToTheReference) {
-  WithState([&](const bench::Substep& substep, const btContactSolverInfo& info,
-                const bench::ContactFrame& frame) {
-    const VelocityNorm norm(frame.bodies);
-    const Converged reference = Converge(frame, norm);
-    EXPECT_EQ(reference.reached, reference.residual_max <= kConvergedTo);
-    EXPECT_LT(reference.residual_max, 1e-4);
-    EXPECT_LT(reference.spread.rms, 1e-5);
-
-    std::vector<double> errors;
-    BulletTrial().Follow(substep, info, 50000, [&](int, std::span<const Velocity> velocities) {
-      errors.push_back(norm.Between(velocities, reference.velocities).rms);
-      return true;
-    });
-    EXPECT_GT(errors[10], 1e-3);
-    EXPECT_LT(errors.back(), 1e-5);
-  });
-}
-
-TEST(States, AreMeasuredWithFiniteErrorsAndConvergedReferences) {
-  StatesOptions options{.scenes = {}, .frames = 40, .samples = 2, .rounds = 3};
-
-  const SceneStates result = MeasureStates(Scene("chain", 10), options, [](const std::string&) {});
-
-  ASSERT_EQ(result.states.size(), 2u);
-  for (const StateResult& state : result.states) {
-    EXPECT_EQ(state.rows, 33);
-    EXPECT_TRUE(state.reference.reached) << state.reference.residual_max;
-    EXPECT_GT(state.bullet_error.rms, 100 * state.reference.spread.rms);
-    EXPECT_GT(state.bullet_time.iterations, 0);
-    for (const Share share : kShares) {
-      for (const Kind kind : kKinds) {
-        const CairnResult& cairn = state.Of(share, kind);
-        EXPECT_EQ(cairn.rounds, 3);
-        EXPECT_TRUE(std::isfinite(cairn.error.rms));
-        EXPECT_LE(cairn.least_rms, cairn.error.rms);
-        EXPECT_LE(cairn.error.rms, cairn.most_rms);
-        if (cairn.worth) {
-          EXPECT_LE(*cairn.worth, state.followed);
-        }
-        if (kind == Kind::kSweeps) {
-          EXPECT_EQ(cairn.factorisations, 0);
-        }
-      }
-    }
-  }
 }
 
 TEST(Grid, HasTheExtremesThatItIsFor) {

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "accuracy/shadow.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace cairn::accuracy {
+namespace {
+
+double Milliseconds(std::chrono::nanoseconds time) {
+  return 1e-6 * static_cast<double>(time.count());
+}
+
+}  // namespace
+
+const char* NameOf(Kind kind) {
+  switch (kind) {
+    case Kind::kSweeps:
+      return "sweeps";
+    case Kind::kAccelerated:
+      return "accelerated";
+    case Kind::kSteps:
+      break;
+  }
+  return "steps";
+}
+
+Settings SettingsOf(Kind kind) {
+  Settings settings;
+  settings.max_sweeps = std::numeric_limits<int>::max();
+  settings.tolerance = 0;
+  if (kind == Kind::kSweeps) settings.method = Method::kPgs;
+  if (kind != Kind::kSteps) settings.k_sm = 0;
+  return settings;
+}
+
+ShadowFrame Shadow::Solve(const bench::Substep& substep, const btContactSolverInfo& info,
+                          double budget) {
+  solver_.settings().budget =
+      Budget::Time(std::chrono::nanoseconds(std::llround(std::max(0.0, budget) * 1e6)));
+  substep.Restore();
+  StartJoints(substep);
+  const ThreadStopwatch stopwatch;
+  substep.SolveWith(&solver_, info, nullptr);
+  const ThreadTime time = stopwatch.Read();
+  KeepJoints(substep);
+  ShadowFrame frame = Describe();
+  frame.budget = budget;
+  frame.time = time;
+  return frame;
+}
+
+// The adapter knows the impulses of a joint again by the one that it left in the joint, which the
+// other solver has overwritten. Bullet itself starts joints from zero.
+void Shadow::StartJoints(const bench::Substep& substep) const {
+  for (const bench::Substep::Group& group : substep.groups()) {
+    for (btTypedConstraint* joint : group.joints) {
+      const auto left = joint_impulses_.find(joint);
+      if (left != joint_impulses_.end()) joint->internalSetAppliedImpulse(left->second);
+    }
+  }
+}
+
+void Shadow::KeepJoints(const bench::Substep& substep) {
+  joint_impulses_.clear();
+  for (const bench::Substep::Group& group : substep.groups()) {
+    for (btTypedConstraint* joint : group.joints) {
+      joint_impulses_[joint] = joint->internalGetAppliedImpulse();
+    }
+  }
+}
+
+ShadowFrame Shadow::Describe() const {
+  const Report& report = solver_.report();
+  if (!report.ok()) throw std::runtime_error(std::string(cairn::Describe(report.status)));
+  if (solver_.fell_back()) throw std::runtime_error("a substep was left to Bullet");
+  const bullet::SubstepTimes times = solver_.times();
+  const ContactProblem problem = solver_.problem();
+  return {.budget = 0,
+          .time = {},
+          .build = Milliseconds(times.build),
+          .solve = Milliseconds(times.solve),
+          .write = Milliseconds(times.write),
+          .step_predicted = Milliseconds(report.step_predicted),
+          .step_time = Milliseconds(report.step_time),
+          .residual_max = report.residual_max,
+          .sweeps = report.sweeps,
+          .factorisations = report.factorisations,
+          .accepted = report.steps_accepted,
+          .restored = report.steps_restored,
+          .empty = problem.rows.empty() && problem.points.empty()};
+}
+
+}  // namespace cairn::accuracy
