@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
+#include <ratio>
 #include <utility>
 
+#include "cli/cairn_contestants.h"
 #include "cli/lane.h"
+#include "cli/solver_registry.h"
 #include "cli/statistics.h"
 
 namespace cairn::accuracy {
@@ -77,42 +81,88 @@ struct Entry {
   cli::RunOptions options;
 };
 
+std::unique_ptr<cli::Contestant> MakeSweeps() {
+  return std::make_unique<cli::CairnContestant>(Settings{.method = Method::kPgs});
+}
+
+std::unique_ptr<cli::Contestant> MakeAccelerated() {
+  return std::make_unique<cli::CairnContestant>(Settings{.k_sm = 0});
+}
+
+std::unique_ptr<cli::Contestant> MakeSteps() {
+  return std::make_unique<cli::CairnContestant>(Settings{});
+}
+
+cli::SolverChoice ChoiceOf(Kind kind) {
+  using cli::Control, cli::Maker, cli::SolverEntry;
+  static const std::array<SolverEntry, kKinds.size()> entries = {
+      SolverEntry{"sweeps", "", Maker::kCairn, Control::kClock, &MakeSweeps},
+      SolverEntry{"accelerated", "", Maker::kCairn, Control::kClock, &MakeAccelerated},
+      SolverEntry{"steps", "", Maker::kCairn, Control::kClock, &MakeSteps}};
+  return {.entry = &entries[static_cast<size_t>(kind)],
+          .own_iterations = {},
+          .label = entries[static_cast<size_t>(kind)].name};
+}
+
 std::vector<Entry> EntriesOf(const LoopOptions& options) {
   std::vector<Entry> entries;
   cli::RunOptions run;
   run.frames = options.frames;
   for (const std::chrono::nanoseconds budget : options.budgets) {
     run.budget = budget;
-    for (const char* name : {"cairn", "cairn-pgs"}) {
-      entries.push_back({cli::ParseSolvers(name).front(), run});
-    }
+    for (const Kind kind : kKinds) entries.push_back({ChoiceOf(kind), run});
   }
   run.budget.reset();
   entries.push_back({cli::ParseSolvers("bullet-si").front(), run});
   return entries;
 }
 
+/// All solvers on one scene with one seed, side by side.
+void RunSeed(int seed, const std::vector<Entry>& entries,
+             const std::function<void(int frame)>& show, LoopScene* scene) {
+  cli::SceneChoice seeded = scene->scene;
+  seeded.seed = static_cast<std::uint64_t>(seed);
+  std::vector<std::unique_ptr<Runner>> runners;
+  for (const Entry& entry : entries) {
+    runners.push_back(std::make_unique<Runner>(seeded, entry.solver, entry.options));
+  }
+  for (int frame = 0; frame < entries.front().options.frames; ++frame) {
+    show(frame);
+    for (const auto& runner : runners) runner->Step(frame);
+  }
+  for (size_t i = 0; i < runners.size(); ++i) runners[i]->Finish(&scene->lanes[i]);
+}
+
 }  // namespace
 
-LoopScene RunLoop(const cli::SceneChoice& scene, const LoopOptions& options,
-                  const std::function<void(const std::string&)>& show) {
+std::vector<LoopScene> RunLoops(const LoopOptions& options,
+                                const std::function<void(const std::string&)>& show,
+                                const std::function<bool()>& stop) {
   const std::vector<Entry> entries = EntriesOf(options);
-  LoopScene result{.scene = scene, .lanes = std::vector<LoopLane>(entries.size())};
-  for (int seed = 1; seed <= options.seeds; ++seed) {
-    cli::SceneChoice seeded = scene;
-    seeded.seed = static_cast<std::uint64_t>(seed);
-    std::vector<std::unique_ptr<Runner>> runners;
-    for (const Entry& entry : entries) {
-      runners.push_back(std::make_unique<Runner>(seeded, entry.solver, entry.options));
-    }
-    for (int frame = 0; frame < options.frames; ++frame) {
-      show(fmt::format("{}: seed {} of {}, frame {} of {}", scene.info->name, seed, options.seeds,
-                       frame, options.frames));
-      for (const auto& runner : runners) runner->Step(frame);
-    }
-    for (size_t i = 0; i < runners.size(); ++i) runners[i]->Finish(&result.lanes[i]);
+  std::vector<LoopScene> scenes;
+  for (const cli::SceneChoice& scene : options.scenes) {
+    scenes.push_back({.scene = scene, .lanes = std::vector<LoopLane>(entries.size())});
   }
-  return result;
+  const auto begin = std::chrono::steady_clock::now();
+  const size_t runs = scenes.size() * static_cast<size_t>(options.seeds);
+  size_t done = 0;
+  std::string left;
+  for (bool stopped = false; done < runs && !stopped; stopped = stop()) {
+    LoopScene& scene = scenes[done % scenes.size()];
+    const int seed = 1 + static_cast<int>(done / scenes.size());
+    const auto say = [&](int frame) {
+      show(fmt::format("seed {} of {}, {}: frame {} of {}{}", seed, options.seeds,
+                       scene.scene.info->name, frame, options.frames, left));
+    };
+    RunSeed(seed, entries, say, &scene);
+    if (++done % scenes.size() != 0) continue;  // scenes differ too much to foresee anything
+    const std::chrono::duration<double, std::ratio<60>> spent =
+        std::chrono::steady_clock::now() - begin;
+    left = fmt::format(", about {:.0f} min left", spent.count() * static_cast<double>(runs - done) /
+                                                      static_cast<double>(done));
+  }
+  std::erase_if(scenes, [](const LoopScene& scene) { return scene.seeds() == 0; });
+  return scenes;
 }
 
 }  // namespace cairn::accuracy

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/shadow.h"
 #include "cli/scene_choice.h"
-#include "cli/solver_registry.h"
 
 namespace cairn::accuracy {
 
@@ -56,12 +56,22 @@ struct LoopLane {
 
 struct LoopScene {
   cli::SceneChoice scene;
-  /// For each budget Cairn with steps and with sweeps alone, in this order; last Bullet.
+  /// For each budget Cairn as each of kKinds, in this order; last Bullet.
   std::vector<LoopLane> lanes;
+
+  const LoopLane& Of(size_t budget, Kind kind) const {
+    return lanes[budget * kKinds.size() + static_cast<size_t>(kind)];
+  }
+  const LoopLane& bullet() const { return lanes.back(); }
+  int seeds() const { return static_cast<int>(lanes.back().runs.size()); }  ///< Done.
 };
 
+/// Every scene with the first seed, then with the second: what is done when it is stopped can be
+/// compared. Scenes without a run are left out.
 /// @param show  is told what is being done
-LoopScene RunLoop(const cli::SceneChoice& scene, const LoopOptions& options,
-                  const std::function<void(const std::string&)>& show);
+/// @param stop  is asked after each scene and seed whether that was enough
+std::vector<LoopScene> RunLoops(const LoopOptions& options,
+                                const std::function<void(const std::string&)>& show,
+                                const std::function<bool()>& stop);
 
 }  // namespace cairn::accuracy

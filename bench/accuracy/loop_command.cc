@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <chrono>
+#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <ratio>
 #include <string>
 #include <vector>
 
@@ -17,11 +20,21 @@
 namespace cairn::accuracy {
 namespace {
 
-int RunLoops(const Common& common, const std::string& budgets, LoopOptions options,
-             const std::string& typed) {
+volatile std::sig_atomic_t interrupted = 0;
+
+void Interrupt(int) { interrupted = 1; }
+
+/// What is asked besides LoopOptions.
+struct LoopChoice {
+  std::string budgets = "2ms,500us";
+  double minutes = 0;
+};
+
+int RunLoop(const Common& common, const LoopChoice& choice, LoopOptions options,
+            const std::string& typed) {
   options.scenes = common.Scenes(0);
   options.frames = common.frames;
-  for (const std::string& word : cli::Split(budgets, ',')) {
+  for (const std::string& word : cli::Split(choice.budgets, ',')) {
     options.budgets.push_back(cli::ParseDuration("--budgets", word));
   }
   if (options.budgets.empty()) throw cli::Failure(cli::kUsage, "--budgets names no time");
@@ -30,10 +43,16 @@ int RunLoops(const Common& common, const std::string& budgets, LoopOptions optio
   std::vector<LoopScene> scenes;
   {
     cli::Progress progress(cli::ParseProgress(common.words));
-    for (const cli::SceneChoice& scene : options.scenes) {
-      scenes.push_back(
-          RunLoop(scene, options, [&](const std::string& text) { progress.Show(text); }));
-    }
+    const auto begin = std::chrono::steady_clock::now();
+    std::signal(SIGINT, &Interrupt);
+    scenes = RunLoops(
+        options, [&](const std::string& text) { progress.Show(text); },
+        [&] {
+          const std::chrono::duration<double, std::ratio<60>> spent =
+              std::chrono::steady_clock::now() - begin;
+          return interrupted != 0 || (choice.minutes > 0 && spent.count() >= choice.minutes);
+        });
+    std::signal(SIGINT, SIG_DFL);
   }
   PrintContext("Scenes in closed loop", context);
   PrintLoop(scenes, options);
@@ -51,14 +70,19 @@ cli::Command AddLoopCommand(CLI::App* app) {
   const auto options = std::make_shared<LoopOptions>();
   const auto common = std::make_shared<Common>();
   common->frames = options->frames;
-  const auto budgets = std::make_shared<std::string>("2ms,500us");
+  const auto choice = std::make_shared<LoopChoice>();
   AddScenes(loop, common.get());
   AddCommon(loop, common.get(), "Frames of each run");
   AddCount(loop, "--seeds", &options->seeds, 1, "Runs of each solver on each scene");
-  cli::AddText(loop, "--budgets", budgets.get(), "Times for Cairn, with commas between them",
+  loop->add_option(
+          "--minutes", choice->minutes,
+          "Ends after the run in which so many are over, as Ctrl-C does; 0: when all is done")
+      ->check(CLI::Range(0.0, 1e4))
+      ->capture_default_str();
+  cli::AddText(loop, "--budgets", &choice->budgets, "Times for Cairn, with commas between them",
                "TIMES");
   return {loop,
-          [=](const std::string& typed) { return RunLoops(*common, *budgets, *options, typed); }};
+          [=](const std::string& typed) { return RunLoop(*common, *choice, *options, typed); }};
 }
 
 }  // namespace cairn::accuracy

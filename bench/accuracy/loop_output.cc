@@ -4,12 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "accuracy/intervals.h"
+#include "accuracy/paired_test.h"
 #include "accuracy/report.h"
 #include "cli/duration.h"
 #include "cli/json_number.h"
@@ -34,15 +37,6 @@ const LoopFigure& MainFigure(const LoopScene& scene) {
   });
 }
 
-/// Runs, of the same seed, in which a lane is better than another.
-int BetterRuns(const LoopLane& lane, const LoopLane& other, const LoopFigure& figure) {
-  int better = 0;
-  for (size_t i = 0; i < lane.runs.size(); ++i) {
-    better += lane.runs[i].*figure.value < other.runs[i].*figure.value ? 1 : 0;
-  }
-  return better;
-}
-
 std::string Collapses(const LoopLane& lane) {
   if (!lane.can_fall && lane.collapsed == 0) return "-";
   const int runs = static_cast<int>(lane.runs.size());
@@ -63,28 +57,104 @@ void PrintScene(const LoopScene& scene) {
   for (const LoopFigure& figure : kLoopFigures) {
     columns.push_back(fmt::format("{} {}", figure.name, figure.unit));
   }
-  columns.insert(columns.end(), {"better than Bullet", "than sweeps"});
   frames::MarkdownTable table(columns);
-  const LoopFigure& main = MainFigure(scene);
-  for (size_t i = 0; i < scene.lanes.size(); ++i) {
-    const LoopLane& lane = scene.lanes[i];
+  for (const LoopLane& lane : scene.lanes) {
     std::vector<std::string> cells = {lane.solver, lane.effort, Collapses(lane)};
     for (const LoopFigure& figure : kLoopFigures) cells.push_back(MedianText(lane, figure));
-    const auto against = [&](const LoopLane& other) {
-      return fmt::format("{}/{}", BetterRuns(lane, other, main), lane.runs.size());
-    };
-    const bool is_bullet = i + 1 == scene.lanes.size(), is_steps = !is_bullet && i % 2 == 0;
-    cells.push_back(is_bullet ? "-" : against(scene.lanes.back()));
-    cells.push_back(is_steps ? against(scene.lanes[i + 1]) : "-");
     table.Add(cells);
   }
-  fmt::print("\n## {} (judged by {})\n\n", scene.scene.info->name, main.name);
+  fmt::print("\n## {} (judged by {}), {} seeds\n\n", scene.scene.info->name, MainFigure(scene).name,
+             scene.seeds());
   table.Print();
   for (const LoopLane& lane : scene.lanes) {
     for (const std::string& failure : lane.failures) {
       fmt::print("- {}, {}: {}\n", lane.solver, lane.effort, failure);
     }
   }
+}
+
+/// Two lanes of a scene under a budget.
+struct Comparison {
+  const char* name;
+  Kind kind;
+  std::optional<Kind> other;  ///< None: Bullet.
+};
+constexpr std::array kComparisons = {
+    Comparison{"sweeps with Bullet", Kind::kSweeps, {}},
+    Comparison{"accelerated with Bullet", Kind::kAccelerated, {}},
+    Comparison{"steps with Bullet", Kind::kSteps, {}},
+    Comparison{"steps with sweeps", Kind::kSteps, Kind::kSweeps},
+    Comparison{"steps with accelerated", Kind::kSteps, Kind::kAccelerated}};
+
+/// p is corrected for all scenes.
+std::vector<PairedTest> Compare(std::span<const LoopScene> scenes, size_t budget,
+                                const Comparison& comparison) {
+  std::vector<PairedTest> tests;
+  std::vector<double> p;
+  for (const LoopScene& scene : scenes) {
+    const LoopLane& other = comparison.other ? scene.Of(budget, *comparison.other) : scene.bullet();
+    const LoopFigure& main = MainFigure(scene);
+    tests.push_back(
+        ComparePaired(Values(scene.Of(budget, comparison.kind), main), Values(other, main)));
+    p.push_back(tests.back().p);
+  }
+  const std::vector<double> adjusted = HolmAdjusted(p);
+  for (size_t i = 0; i < tests.size(); ++i) tests[i].p = adjusted[i];
+  return tests;
+}
+
+constexpr double kLevel = 0.05;
+
+bool IsWorse(const PairedTest& test) { return test.p < kLevel && test.more > test.less; }
+
+std::string TestText(const PairedTest& test) {
+  const char* const verdict = test.p >= kLevel ? "open" : IsWorse(test) ? "WORSE" : "better";
+  return fmt::format("{} {}:{} p {}", verdict, test.less, test.more, Digits(test.p));
+}
+
+void PrintComparisons(std::span<const LoopScene> scenes, const LoopOptions& options,
+                      size_t budget) {
+  std::vector<std::string> columns = {"scene", "judged by"}, losses;
+  std::vector<std::vector<PairedTest>> tests;
+  for (const Comparison& comparison : kComparisons) {
+    columns.push_back(comparison.name);
+    tests.push_back(Compare(scenes, budget, comparison));
+  }
+  frames::MarkdownTable table(columns);
+  for (size_t i = 0; i < scenes.size(); ++i) {
+    const std::string name(scenes[i].scene.info->name);
+    std::vector<std::string> cells = {name, MainFigure(scenes[i]).name};
+    for (size_t c = 0; c < kComparisons.size(); ++c) {
+      cells.push_back(TestText(tests[c][i]));
+      if (IsWorse(tests[c][i])) losses.push_back(fmt::format("{}, {}", name, columns[2 + c]));
+    }
+    table.Add(cells);
+  }
+  fmt::print("\n## Compared, {}\n\n", cli::FormatDuration(options.budgets[budget]));
+  table.Print();
+  for (const std::string& loss : losses) fmt::print("- lost: {}\n", loss);
+  if (losses.empty()) fmt::print("- lost: none\n");
+}
+
+Json ToJson(const PairedTest& test) {
+  return {{"less", test.less}, {"more", test.more}, {"equal", test.equal}, {"p", Number(test.p)}};
+}
+
+Json ComparisonsToJson(std::span<const LoopScene> scenes, const LoopOptions& options) {
+  Json list = Json::array();
+  for (size_t budget = 0; budget < options.budgets.size(); ++budget) {
+    for (const Comparison& comparison : kComparisons) {
+      const std::vector<PairedTest> tests = Compare(scenes, budget, comparison);
+      Json of_scenes = Json::object();
+      for (size_t i = 0; i < scenes.size(); ++i) {
+        of_scenes[std::string(scenes[i].scene.info->name)] = ToJson(tests[i]);
+      }
+      list.push_back({{"budget_ms", cli::Milliseconds(options.budgets[budget])},
+                      {"compared", comparison.name},
+                      {"scenes", of_scenes}});
+    }
+  }
+  return list;
 }
 
 Json ToJson(const Interval& interval) {
@@ -124,12 +194,20 @@ void PrintLoop(std::span<const LoopScene> scenes, const LoopOptions& options) {
       "in brackets order statistics that hold the\n  true median with 95 %; collapses with "
       "Wilson's "
       "95 %; a failed run counts as infinite\n"
-      "- cairn, cairn-pgs: the Bullet adapter with and without subspace steps, Budget::Time for "
-      "the "
-      "whole substep; bullet-si: 10 iterations\n"
-      "- better: runs of the same seed with a lower figure than Bullet, and than sweeps alone with "
-      "the same budget\n",
-      options.frames, options.seeds);
+      "- sweeps, accelerated, steps: the Bullet adapter with sweeps alone, with accelerated "
+      "sweeps, and with subspace steps (the default),\n  Budget::Time for the whole substep; "
+      "bullet-si: 10 iterations, however long they take\n"
+      "- compared: runs of the same seed, lower:higher figure, Wilcoxon's signed-rank test, "
+      "two-sided, p corrected by Holm for all scenes;\n  open: p of {} or more\n",
+      options.frames, options.seeds, kLevel);
+  for (const LoopScene& scene : scenes) {
+    if (scene.seeds() < options.seeds) {
+      fmt::print("- stopped early: {} has {} seeds\n", scene.scene.info->name, scene.seeds());
+    }
+  }
+  for (size_t budget = 0; budget < options.budgets.size(); ++budget) {
+    PrintComparisons(scenes, options, budget);
+  }
   for (const LoopScene& scene : scenes) PrintScene(scene);
 }
 
@@ -147,6 +225,7 @@ Json ToJson(std::span<const LoopScene> scenes, const LoopOptions& options) {
   return {{"frames", options.frames},
           {"seeds", options.seeds},
           {"budgets_ms", budgets},
+          {"comparisons", ComparisonsToJson(scenes, options)},
           {"scenes", list}};
 }
 

@@ -8,7 +8,7 @@
 
 namespace cairn::accuracy {
 
-/// How to read it, and a table for each scene.
+/// How to read it, what was better than what, and a table for each scene.
 void PrintLoop(std::span<const LoopScene> scenes, const LoopOptions& options);
 
 nlohmann::ordered_json ToJson(std::span<const LoopScene> scenes, const LoopOptions& options);
