@@ -135,7 +135,7 @@ struct [[nodiscard]] Report {
   /// What subspace steps were predicted to take, with the factorisations that they made, and what
   /// they took, without the sweeps around them: contact problems with Budget::Time, else 0.
   std::chrono::nanoseconds step_predicted{0}, step_time{0};
-  Phases phases;                        ///< Problems in matrix form, 0 unless the budget is a time.
+  Phases phases;  ///< Problems in matrix form, 0 unless the budget is a time.
   std::vector<IslandReport> islands;
 
   bool ok() const { return status == Status::kOk; }
