@@ -10,8 +10,6 @@
 namespace cairn::micro {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 /// Frames before the one that is looked at: piles have landed, stacks carry themselves.
 constexpr int kFrames = 120;
 constexpr double kContactEps = 3e-3, kJointEps = 1e-4;
@@ -58,13 +56,14 @@ class Assembly {
   }
 
   void Add(const Row& row, double x) {
-    if (!IsFree(row, x)) return;
     const int a = Moving(row.body_a), b = Moving(row.body_b);
     Vector6 j_a, j_b, g_a = Vector6::Zero(), g_b = Vector6::Zero();
     j_a << row.linear_a, row.angular_a;
     j_b << row.linear_b, row.angular_b;
     if (a >= 0) g_a = roots_[row.body_a].transpose() * j_a;
     if (b >= 0) g_b = roots_[row.body_b].transpose() * j_b;
+    if (a >= 0 || b >= 0) matrix_.all_rows.push_back({a, b, g_a, g_b});
+    if (!IsFree(row, x)) return;
     const bool joint = row.parent == kNoRow && std::isinf(row.lo);
     const double diagonal = g_a.squaredNorm() + g_b.squaredNorm() + row.compliance;
     const double weight = 1 / (row.compliance + (joint ? kJointEps : kContactEps) * diagonal);
@@ -95,8 +94,10 @@ BodyMatrix MakeBodyMatrix(const std::string& scene) {
   const frames::SceneChoice choice = frames::ParseScene(scene);
   frames::SceneRun run(choice);
   run.Skip(choice.FirstFrame(kFrames));
-  const bench::ContactFrame frame = run.Next();
-  return Assembly(frame).Take();
+  bench::ContactFrame frame = run.Next();
+  BodyMatrix matrix = Assembly(frame).Take();
+  matrix.frame = std::move(frame);
+  return matrix;
 }
 
 }  // namespace cairn::micro

@@ -6,9 +6,18 @@
 #include <utility>
 #include <vector>
 
+#include "rigid/contact_frame.h"
+
 namespace cairn::micro {
 
 using Block6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// A row of G: numbers of bodies in the matrix, -1 for what does not move.
+struct BodyRow {
+  int a = -1, b = -1;
+  Vector6 g_a, g_b;
+};
 
 /// What a subspace step factorises in a frame of a scene, H = I + G' W G: a block for each body
 /// that moves, and one for each pair of them that shares rows.
@@ -18,6 +27,8 @@ struct BodyMatrix {
   std::vector<Block6> diagonals;           ///< one per body
   std::vector<Block6> uppers;  ///< one per pair: rows of the first, columns of the second
   int rows = 0;                ///< of G with a weight
+  std::vector<BodyRow> all_rows;
+  bench::ContactFrame frame;  ///< where it comes from
 };
 
 /// @p scene: name, or name:size, or name@frame (frames::ParseScene). Rows that Bullet's own solver

@@ -2,9 +2,12 @@
 // How long the factorisation of a subspace step takes in a frame of each scene: our factor in
 // double and float, Eigen's simplicial one in the same order of bodies, and CHOLMOD's supernodal
 // one in its own, where it is installed. One thread. Time of the process, by phase: blocks into
-// the solver's memory (fill), factorise, solve.
+// the solver's memory (fill), factorise, solve. What comes before, from rows to the matrix
+// (assemble), with every row: ours by as much as it takes longer with the factorisation than the
+// factorisation alone, each once in turn; Eigen's by triplets, and into a pattern that is known.
 //
 //     cairn_cholesky --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
+#include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -14,6 +17,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "micro/assembly.h"
 #include "micro/body_matrix.h"
 #include "micro/eigen_cholesky.h"
 #include "micro/multiply_add_peak.h"
@@ -157,6 +161,12 @@ constexpr Kind kKinds[] = {
 #endif
 };
 
+void CountFlops(double flops, double peak, benchmark::State* state) {
+  const double all = flops * static_cast<double>(state->iterations());
+  state->counters["flop/s"] = benchmark::Counter(all, benchmark::Counter::kIsRate);
+  state->counters["of_peak"] = benchmark::Counter(all / peak, benchmark::Counter::kIsRate);
+}
+
 void RegisterPhase(const std::string& name, const std::shared_ptr<Solver>& solver,
                    std::function<void()> Solver::*phase, double flops, double peak) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
@@ -164,12 +174,54 @@ void RegisterPhase(const std::string& name, const std::shared_ptr<Solver>& solve
     solver->factorise();
     const std::function<void()>& run = (*solver).*phase;
     for (auto _ : state) run();
-    if (flops == 0) return;
-    const double per_iteration = flops * static_cast<double>(state.iterations());
-    state.counters["flop/s"] = benchmark::Counter(per_iteration, benchmark::Counter::kIsRate);
-    state.counters["of_peak"] =
-        benchmark::Counter(per_iteration / peak, benchmark::Counter::kIsRate);
+    if (flops > 0) CountFlops(flops, peak, &state);
   })->Unit(benchmark::kMicrosecond);
+}
+
+/// Seconds of work.
+template <class Function>
+double Time(const Function& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+template <class T>
+void RegisterOurAssembly(const std::string& name, const BodyMatrix& matrix, double peak) {
+  const auto ours = std::make_shared<BlockAssembly<T>>(matrix);
+  const auto alone = std::make_shared<Solver>(MakeFronts<T>(matrix));
+  benchmark::RegisterBenchmark((name + "/assemble").c_str(),
+                               [=, &matrix](benchmark::State& state) {
+                                 const auto both = [&] {
+                                   if (!ours->AssembleAndFactorise()) std::abort();
+                                 };
+                                 alone->fill();
+                                 both();
+                                 for (auto _ : state) {
+                                   const double with = Time(both), without = Time(alone->factorise);
+                                   state.SetIterationTime(with - without);
+                                 }
+                                 CountFlops(AssemblyFlops(matrix), peak, &state);
+                               })
+      ->Unit(benchmark::kMicrosecond)
+      ->UseManualTime();
+}
+
+void RegisterEigenAssembly(const std::string& name, const BodyMatrix& matrix, double peak) {
+  FactorPattern pattern;
+  pattern.Analyse(matrix.bodies, 6, matrix.pairs);
+  const auto eigen = std::make_shared<EigenAssembly>(matrix, pattern.position());
+  const Eigen::SparseMatrix<double> expected = eigen->sparse();
+  eigen->IntoPattern();
+  if (!eigen->sparse().isApprox(expected)) std::abort();
+  const auto add = [&](const char* phase, void (EigenAssembly::*run)()) {
+    benchmark::RegisterBenchmark((name + phase).c_str(), [=, &matrix](benchmark::State& state) {
+      for (auto _ : state) ((*eigen).*run)();
+      CountFlops(AssemblyFlops(matrix), peak, &state);
+    })->Unit(benchmark::kMicrosecond);
+  };
+  add("/assemble_triplets", &EigenAssembly::FromTriplets);
+  add("/assemble", &EigenAssembly::IntoPattern);
 }
 
 void RegisterScene(const std::string& scene, const BodyMatrix& matrix, const Peak& peak) {
@@ -179,6 +231,9 @@ void RegisterScene(const std::string& scene, const BodyMatrix& matrix, const Pea
     FactorPattern again;
     for (auto _ : state) again.Analyse(matrix.bodies, 6, matrix.pairs);
   })->Unit(benchmark::kMicrosecond);
+  RegisterOurAssembly<double>(scene + "/cairn_double", matrix, peak.double_flops);
+  RegisterOurAssembly<float>(scene + "/cairn_float", matrix, peak.float_flops);
+  RegisterEigenAssembly(scene + "/eigen", matrix, peak.double_flops);
   for (const Kind& kind : kKinds) {
     const auto solver = std::make_shared<Solver>(kind.make(matrix));
     const std::string name = scene + "/" + kind.name;
