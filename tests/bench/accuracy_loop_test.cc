@@ -14,12 +14,14 @@
 #include "accuracy/loop.h"
 #include "accuracy/paired_test.h"
 #include "cairn/contact_problem.h"
+#include "cli/scene_choice.h"
 
 namespace cairn::accuracy {
 namespace {
 
 cli::SceneChoice Scene(const char* name, int size) {
-  return {.info = bench::FindScene(name), .size = size, .seed = 0};
+  const std::vector<std::string> names = {name};
+  return cli::ParseScenes(names, std::to_string(size), 0).front();
 }
 
 // P(Binomial(20, 1/2) <= 5) = 2.07 %, <= 6: 5.8 %. So from the 6th to the 15th of 20 values.

@@ -16,13 +16,15 @@
 #include "accuracy/state_run.h"
 #include "accuracy/states.h"
 #include "accuracy/velocity_norm.h"
+#include "cli/scene_choice.h"
 #include "measure/reference.h"
 
 namespace cairn::accuracy {
 namespace {
 
 cli::SceneChoice Scene(const char* name, int size) {
-  return {.info = bench::FindScene(name), .size = size, .seed = 0};
+  const std::vector<std::string> names = {name};
+  return cli::ParseScenes(names, std::to_string(size), 0).front();
 }
 
 /// The tenth frame of a small scene.
