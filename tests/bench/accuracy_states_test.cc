@@ -119,8 +119,8 @@ TEST_P(OneState, BulletConvergesToTheReference) {
   });
 }
 
-// The adapter makes rows of its own; what is left is the rounding of the velocities of bodies,
-// which are floats.
+// The adapter makes rows of its own, those of contacts in floats: a tower makes 1e-4 m/s of their
+// rounding.
 TEST_P(OneState, TheAdapterConvergesToTheReferenceOfBulletsRows) {
   WithState([&](const bench::Substep& substep, const btContactSolverInfo& info,
                 const RecordedSubstep& recorded) {
@@ -131,16 +131,17 @@ TEST_P(OneState, TheAdapterConvergesToTheReferenceOfBulletsRows) {
     substep.SolveWith(&adapter, info, nullptr);
 
     EXPECT_FALSE(adapter.fell_back());
-    EXPECT_LT(norm.Between(recorded.Changes(), reference.velocities).rms, 2e-5);
+    EXPECT_LT(norm.Between(recorded.Changes(), reference.velocities).rms, 2e-4);
   });
 }
 
-/// Errors of one sweep on the last of some frames of a chain, by a shadow that saw so many of them.
-double ErrorOfOneSweep(int frames_seen) {
-  constexpr int kFrames = 12;
+/// Errors of a few sweeps on the last of some frames of a chain, by a shadow that saw so many of
+/// them.
+double ErrorOfFewSweeps(int frames_seen) {
+  constexpr int kFrames = 60, kSweeps = 20;
   constexpr double kDay = 86400e3;  // [ms]
   Settings settings = SettingsOf(Kind::kSweeps);
-  settings.max_sweeps = 1;
+  settings.max_sweeps = kSweeps;
   Shadow shadow(settings);
   StateRun run(Scene("chain", 5), 50);
   double error = 0;
@@ -148,7 +149,7 @@ double ErrorOfOneSweep(int frames_seen) {
     run.StepAfter([&](bench::Substep* substep, const btContactSolverInfo& info) {
       if (frame < kFrames - frames_seen) return;
       const RecordedSubstep recorded = BulletTrial().Record(*substep, info);
-      EXPECT_EQ(shadow.Solve(*substep, info, kDay).sweeps, 1);
+      EXPECT_EQ(shadow.Solve(*substep, info, kDay).sweeps, kSweeps);
       const VelocityNorm norm(recorded.frame.bodies);
       error = norm.Between(recorded.Changes(), Converge(recorded.frame, norm).velocities).rms;
     });
@@ -158,7 +159,7 @@ double ErrorOfOneSweep(int frames_seen) {
 
 // From impulses of the frame before; gravity changes them little.
 TEST(Shadow, StartsJointsFromItsOwnImpulsesOfTheFrameBefore) {
-  EXPECT_LT(ErrorOfOneSweep(10), 0.5 * ErrorOfOneSweep(1));
+  EXPECT_LT(ErrorOfFewSweeps(10), 0.5 * ErrorOfFewSweeps(1));
 }
 
 TEST(Shadow, LeavesContactsAndJointsToBeRestored) {
