@@ -62,6 +62,11 @@ std::vector<double> InOneRow(const Recording& recording, const Impulses& impulse
     for (const ContactImpulse& point : points) {
       all.insert(all.end(), point.tangential, point.tangential + manifold.tangents);
     }
+    if (!manifold.twists) continue;
+    for (const TwistImpulse& twist :
+         impulses.twists.subspan(manifold.first_point, manifold.points)) {
+      all.insert(all.end(), {twist.spinning, twist.rolling[0], twist.rolling[1]});
+    }
   }
   return all;
 }
