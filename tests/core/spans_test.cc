@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 #include <vector>
 
 #include "block_problems.h"
@@ -61,6 +62,25 @@ void ExpectNested(std::span<const Span> spans) {
 int CountOf(std::span<const Span> spans, SpanKind kind) {
   return static_cast<int>(std::count_if(
       spans.begin(), spans.end(), [kind](const Span& span) { return span.label.kind == kind; }));
+}
+
+// The whole ones that follow where the state was moved on, and the moving itself, are sweeps too.
+TEST(Spans, NameEverySweepASweep) {
+  Settings settings = test::Coloured(9);
+  settings.method = Method::kPgsSm;
+  settings.k_sm = 0;
+  SpanRecorder recorder(1, 1000);
+  settings.spans = &recorder;
+  ASSERT_TRUE(test::Solve(settings, test::Wall(6, 6)).report.ok());
+  std::set<int> sweeps;
+  bool set_up_again = false;
+  for (const Span& span : recorder.spans(0)) {
+    if (span.label.kind == SpanKind::kSetUp) set_up_again = !sweeps.empty();
+    if (span.label.kind != SpanKind::kSweep) continue;
+    EXPECT_FALSE(set_up_again) << "sweep " << span.label.number;
+    sweeps.insert(span.label.number);
+  }
+  EXPECT_EQ(sweeps, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
 TEST(Spans, OfASolveAreThoseOfItsPhasesAndChangeNoBit) {

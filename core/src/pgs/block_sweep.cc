@@ -50,9 +50,9 @@ class BlockSweeps::Pass final : public StagedWork {
   }
 
   SpanLabel label(int stage) const override {
-    const int sweep = kind_ == Kind::kSweeps ? made_ + stage / stages_of_sweep() : 0;
-    return {kind_ == Kind::kSweeps ? SpanKind::kSweep : SpanKind::kMeasure, sweep,
-            stage % stages_of_sweep()};
+    const int part = stage % stages_of_sweep();
+    if (kind_ == Kind::kMeasure) return {SpanKind::kMeasure, 0, part};
+    return {SpanKind::kSweep, made_ + stage / stages_of_sweep(), part};
   }
 
   bool GoOn(int stage) override {

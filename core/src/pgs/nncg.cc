@@ -32,6 +32,12 @@ class Nncg::Pass final : public StagedWork {
   int units(int) const override {
     return static_cast<int>(plan_.units().size() + plan_.groups().size());
   }
+  /// The beginning of the sweep that follows.
+  SpanLabel label(int) const override {
+    int sweep = 0;
+    for (const GroupSweeps& group : groups_) sweep = group.active ? group.sweeps : sweep;
+    return {SpanKind::kSweep, sweep};
+  }
   void Do(int, int unit) override {
     const int blocks = static_cast<int>(plan_.units().size());
     const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
