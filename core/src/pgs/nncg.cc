@@ -2,6 +2,7 @@
 #include "pgs/nncg.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "simd/flush_denormals.h"
 
@@ -95,12 +96,19 @@ void Nncg::Begin(const BlockFrame& frame) {
 }
 
 void Nncg::FindEnds(const Plan& plan) {
+  constexpr int kAll = simd::RowShape{}.max_sweeps;
   ends_.clear();
+  newest_end_.assign(plan.islands().size(), kAll);
   for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
+    int before = kAll;  // rows of a block mostly end together, as do those of an island
     for (const simd::RowShape& row : std::span(block.rows, block.row_count)) {
-      if (row.max_sweeps == simd::RowShape{}.max_sweeps) continue;
-      for (int l = 0; l < block.lanes; ++l) ends_.push_back({row.max_sweeps, plan.island_of(b, l)});
+      if (std::exchange(before, row.max_sweeps) == row.max_sweeps || row.max_sweeps == kAll) continue;
+      for (int l = 0; l < block.lanes; ++l) {
+        const int island = plan.island_of(b, l);
+        const int newest = std::exchange(newest_end_[island], row.max_sweeps);
+        if (newest != row.max_sweeps) ends_.push_back({row.max_sweeps, island});
+      }
     }
   }
   std::sort(ends_.begin(), ends_.end());
