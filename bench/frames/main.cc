@@ -11,6 +11,7 @@
 #include "CLI/CLI.hpp"
 #include "frames/budget.h"
 #include "frames/cost.h"
+#include "frames/step.h"
 #include "frames/swap.h"
 #include "frames/threads.h"
 
@@ -42,6 +43,15 @@ void AddSeries(CLI::App* app, SeriesOptions* options) {
       ->capture_default_str();
   app->add_option("--rounds", options->rounds, "Repetitions")
       ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+}
+
+void AddFrames(CLI::App* app, int* first, int* count) {
+  app->add_option("--frame", *first, "First frame looked at")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  app->add_option("--frames", *count, "How many")
+      ->check(CLI::Range(1, 100000))
       ->capture_default_str();
 }
 
@@ -94,12 +104,13 @@ int Main(int count, char** arguments) {
   CLI::App* const swap_app =
       app.add_subcommand("swap", "The whole adapter against Bullet's solver");
   AddScenes(swap_app, &swap_scenes);
-  swap_app->add_option("--frame", swap.frame, "First frame looked at")
-      ->check(CLI::Range(0, 10000))
-      ->capture_default_str();
-  swap_app->add_option("--frames", swap.frames, "How many")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  AddFrames(swap_app, &swap.frame, &swap.frames);
+
+  StepOptions step;
+  std::vector<std::string> step_scenes = swap_scenes;
+  CLI::App* const step_app = app.add_subcommand("step", "Whole steps of a world");
+  AddScenes(step_app, &step_scenes);
+  AddFrames(step_app, &step.frame, &step.frames);
 
   CLI11_PARSE(app, count, arguments);
   const std::string command = CommandOf(count, arguments);
@@ -113,6 +124,9 @@ int Main(int count, char** arguments) {
   } else if (swap_app->parsed()) {
     swap.scenes = ParseScenes(swap_scenes);
     PrintSwaps(swap, command);
+  } else if (step_app->parsed()) {
+    step.scenes = ParseScenes(step_scenes);
+    PrintSteps(step, command);
   } else {
     threads.scenes = Pyramids(sizes);
     PrintThreads(threads, command);

@@ -4,9 +4,11 @@
 #include <cairn/bullet/constraint_solver.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <span>
 #include <utility>
 
 #include "cli/statistics.h"
@@ -28,14 +30,45 @@ double Now() {
   return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
 }
 
-double Microseconds(std::chrono::nanoseconds time) {
-  return 1e-3 * static_cast<double>(time.count());
+/// Where a substep of Cairn went, wall clock [us].
+struct Parts {
+  double set_up = 0;  ///< from Bullet's objects to blocks
+  double sweeps = 0;  ///< with the residuals that the report gives
+  double finish = 0;  ///< from blocks to Bullet's objects
+};
+
+double* PartOf(SpanKind kind, Parts* parts) {
+  switch (kind) {
+    case SpanKind::kRead:
+    case SpanKind::kSetUp:
+      return &parts->set_up;
+    case SpanKind::kResults:
+    case SpanKind::kWrite:
+      return &parts->finish;
+    default:
+      return &parts->sweeps;
+  }
+}
+
+Parts PartsOf(std::span<const Span> spans) {
+  Parts parts;
+  Span::Clock::time_point outer = Span::Clock::time_point::max();
+  // a span comes after those that it contains
+  for (size_t i = spans.size(); i-- > 0;) {
+    const Span& span = spans[i];
+    if (span.begin >= outer) continue;
+    outer = span.begin;
+    *PartOf(span.label.kind, &parts) +=
+        std::chrono::duration<double, std::micro>(span.end - span.begin).count();
+  }
+  return parts;
 }
 
 /// What the frames of a scene took [us], and how large they were.
 struct Times {
   std::vector<double> bullet, fast, reference;
-  std::vector<double> build, solve, write;  ///< of fast
+  std::vector<double> set_up, sweeps, finish;  ///< of fast
+  std::vector<double> set_up_ns;               ///< likewise, for each point and joint row
   std::vector<double> points, joint_rows, bodies;
 };
 
@@ -43,7 +76,9 @@ class Swap {
  public:
   Swap()
       : fast_(Sweeps(kSweeps, 1)),
-        reference_(Sweeps(kSweeps, 1), {.mode = bullet::Mode::kReference}) {}
+        reference_(Sweeps(kSweeps, 1), {.mode = bullet::Mode::kReference}) {
+    fast_.settings().spans = &spans_;
+  }
 
   void Look(Substep* substep, const btContactSolverInfo& info) {
     btContactSolverInfo ten = info;
@@ -54,25 +89,36 @@ class Swap {
     for (size_t k = 0; k < solvers.size(); ++k, ++turn_) {
       const size_t lane = turn_ % solvers.size();
       substep->Restore();
+      spans_.Clear();
       const double start = Now();
       substep->SolveWith(solvers[lane], ten, nullptr);
       to[lane]->push_back(Now() - start);
+      if (solvers[lane] == &fast_) AddParts();
     }
     ++turn_;
-    times.build.push_back(Microseconds(fast_.times().build));
-    times.solve.push_back(Microseconds(fast_.times().solve));
-    times.write.push_back(Microseconds(fast_.times().write));
-    const ContactProblem problem = fast_.problem();
-    times.points.push_back(static_cast<double>(problem.points.size()));
-    times.joint_rows.push_back(static_cast<double>(problem.rows.size()));
-    times.bodies.push_back(static_cast<double>(problem.bodies.size()));
   }
 
   Times times;
 
  private:
   static constexpr int kSweeps = 10;
+  static constexpr int kMostSpans = 65536;
 
+  void AddParts() {
+    const Parts parts = PartsOf(spans_.spans(0));
+    times.set_up.push_back(parts.set_up);
+    times.sweeps.push_back(parts.sweeps);
+    times.finish.push_back(parts.finish);
+    const ContactProblem problem = fast_.problem();
+    const auto points = static_cast<double>(problem.points.size());
+    const auto joint_rows = static_cast<double>(problem.rows.size());
+    times.points.push_back(points);
+    times.joint_rows.push_back(joint_rows);
+    times.bodies.push_back(static_cast<double>(problem.bodies.size()));
+    times.set_up_ns.push_back(1e3 * parts.set_up / std::max(1.0, points + joint_rows));
+  }
+
+  SpanRecorder spans_{1, kMostSpans};
   btSequentialImpulseConstraintSolver bullet_;
   bullet::ConstraintSolver fast_, reference_;
   size_t turn_ = 0;
@@ -105,22 +151,23 @@ void PrintSwaps(const SwapOptions& options, const std::string& command) {
       "- {} frames in a row; each is solved by all three from the same state, in turn; medians, "
       "CPU "
       "time\n"
-      "- shares: of what the adapter spends on rows, in the core, and on writing back\n\n",
+      "- shares: set-up, from Bullet's objects to blocks; sweeps; finish, back to the objects\n"
+      "- set-up ns: for each point of contact and each joint row\n\n",
       options.frames);
   MarkdownTable table({"scene", "bodies", "points", "joint rows", "Bullet us", "Cairn us", "ratio",
-                       "reference us", "build", "core", "write"});
+                       "reference us", "set-up", "sweeps", "finish", "set-up ns"});
   for (const SceneChoice& scene : options.scenes) {
     const Times times = TimesOf(scene, options);
     const double bullet = Median(times.bullet), fast = Median(times.fast);
-    const double build = Median(times.build), solve = Median(times.solve);
-    const double write = Median(times.write), sum = build + solve + write;
+    const double set_up = Median(times.set_up), sweeps = Median(times.sweeps);
+    const double finish = Median(times.finish), sum = set_up + sweeps + finish;
     const auto share = [sum](double part) { return fmt::format("{:.0f} %", 100 * part / sum); };
     table.Add({NameOf(scene), fmt::format("{:.0f}", Median(times.bodies)),
                fmt::format("{:.0f}", Median(times.points)),
                fmt::format("{:.0f}", Median(times.joint_rows)), fmt::format("{:.0f}", bullet),
                fmt::format("{:.0f}", fast), fmt::format("{:.1f}", bullet / fast),
-               fmt::format("{:.0f}", Median(times.reference)), share(build), share(solve),
-               share(write)});
+               fmt::format("{:.0f}", Median(times.reference)), share(set_up), share(sweeps),
+               share(finish), fmt::format("{:.0f}", Median(times.set_up_ns))});
   }
   table.Print();
 }

@@ -60,6 +60,7 @@ void BlockCycle::Begin() {
   stopped_.clear();
   stopped_.reserve(islands_.size());
   legs_ = 0;
+  started_ = false;
   accelerates_ =
       settings_->method == Method::kPgsSm && settings_->acceleration == Acceleration::kNncg;
   nncg_.Begin(*frame_);
@@ -126,6 +127,7 @@ void BlockCycle::Leg() {
   for (bool whole = true; whole && Active() && SweepsMade() < end;) {
     const int unseen = UnseenAfter(SweepsMade());
     whole = Sweep(std::min(end - SweepsMade(), unseen));
+    if (whole && SweepsMade() == 1) MarkStart();
     if (whole && SweepsMade() == kMarkedSweep) MarkEnergies();
     if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
     Judge(whole);
@@ -133,6 +135,11 @@ void BlockCycle::Leg() {
   ++legs_;
   KeepBest();
   if (Active()) TakeSteps();
+}
+
+void BlockCycle::MarkStart() {
+  started_ = true;
+  for (size_t i = 0; i < islands_.size(); ++i) islands_[i].residual_before = states_[i].seen;
 }
 
 bool BlockCycle::Sweep(int count) {
@@ -281,6 +288,7 @@ void BlockCycle::FillReport(Report* report) const {
     island.bodies = plan.islands()[i].bodies;
     island.rows = plan.islands()[i].rows;
     island.residual = after_[i];
+    if (!started_) island.residual_before = island.residual;
   }
 }
 

@@ -53,6 +53,8 @@ class BlockCycle {
   bool MoveOn();
   /// From what the last sweep saw.
   void LearnWays();
+  /// Takes down what the first sweep saw.
+  void MarkStart();
   /// Reads what the last sweep of the groups saw.
   void See(std::span<const GroupSweeps> groups);
   void Judge(bool seen);
@@ -105,6 +107,7 @@ class BlockCycle {
   std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
   BlockSnapshot done_, best_, before_steps_, after_steps_;
   int legs_ = 0;
+  bool started_ = false;  ///< a whole sweep was made
 };
 
 }  // namespace cairn

@@ -29,6 +29,7 @@ IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Se
     : island_(island), settings_(settings), memory_(memory), at_{.state = std::move(start)} {
   const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
   if (asked) report_.no_step = NoStep::kEnded;
+  report_.residual_before = MeasureResidual(island_, at_.state);
   if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
 }
 

@@ -107,15 +107,18 @@ namespace {
 
 constexpr double kFloatRounding = 1e-5;
 
-/// Plain Cholesky, where no pivot is small.
+/// Plain Cholesky, where no pivot is small and the halves differ by rounding at most, as those of
+/// a turned body do.
 bool FactorDefinite(const Eigen::Matrix3d& m, Eigen::Matrix3d* factor) {
   constexpr double kLeastPivot = 1e-4;
-  if (m(1, 0) != m(0, 1) || m(2, 0) != m(0, 2) || m(2, 1) != m(1, 2)) return false;
-  if (!(m(0, 0) > 0)) return false;
-  const double l00 = std::sqrt(m(0, 0)), l10 = m(1, 0) / l00, l20 = m(2, 0) / l00;
+  const double most = kFloatRounding * std::max({m(0, 0), m(1, 1), m(2, 2)});
+  const auto alike = [&m, most](int i, int j) { return std::abs(m(i, j) - m(j, i)) <= most; };
+  if (!(m(0, 0) > 0 && alike(1, 0) && alike(2, 0) && alike(2, 1))) return false;
+  const auto mean = [&m](int i, int j) { return 0.5 * (m(i, j) + m(j, i)); };
+  const double l00 = std::sqrt(m(0, 0)), l10 = mean(1, 0) / l00, l20 = mean(2, 0) / l00;
   const double pivot1 = m(1, 1) - l10 * l10;
   if (!(pivot1 > kLeastPivot * m(1, 1))) return false;
-  const double l11 = std::sqrt(pivot1), l21 = (m(2, 1) - l20 * l10) / l11;
+  const double l11 = std::sqrt(pivot1), l21 = (mean(2, 1) - l20 * l10) / l11;
   const double pivot2 = m(2, 2) - l20 * l20 - l21 * l21;
   if (!(pivot2 > kLeastPivot * m(2, 2))) return false;
   *factor << l00, 0, 0, l10, l11, 0, l20, l21, std::sqrt(pivot2);

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
+#include <span>
 #include <string_view>
+
+#include "cairn/solver.h"
 
 namespace cairn {
 namespace {
@@ -44,6 +48,41 @@ TEST(Describe, AnswersNumbersThatAreNoStatus) {
   EXPECT_EQ(Describe(static_cast<Status>(99)), "unknown status");
   EXPECT_EQ(Describe(static_cast<StopReason>(99)), "unknown reason");
   EXPECT_EQ(Describe(static_cast<NoStep>(99)), "unknown reason");
+}
+
+/// A ball of 2 kg that falls on the ground at 4 m/s, solved from rest.
+IslandReport OfFallingBall(Settings settings) {
+  Body ball;
+  ball.inv_mass = 0.5;
+  ball.velocity.linear = {0, 0, -4};
+  const Row contact{.body_a = 0, .linear_a = {0, 0, 1}, .lo = 0};
+  double impulse = 0;
+  Velocity velocity;
+  Solver solver(settings);
+  const Report report =
+      solver.Solve({{&ball, 1}, {&contact, 1}}, {std::span(&impulse, 1)}, {&velocity, 1});
+  EXPECT_TRUE(report.ok());
+  EXPECT_EQ(report.islands.size(), 1U);
+  return report.islands.at(0);
+}
+
+TEST(IslandReport, SaysHowFarTheStartWasFromTheSolution) {
+  for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+    const IslandReport island = OfFallingBall({.order = order});
+    EXPECT_FLOAT_EQ(island.residual_before.max, 4);
+    EXPECT_FLOAT_EQ(island.residual_before.energy, 4 * std::sqrt(2.0));
+    EXPECT_EQ(island.residual_before.max_angular, 0);
+    EXPECT_LT(island.residual.max, 1e-6);
+  }
+}
+
+TEST(IslandReport, OfNoSweepsIsAsFarAfterAsBefore) {
+  for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+    const IslandReport island = OfFallingBall({.order = order, .max_sweeps = 0});
+    EXPECT_FLOAT_EQ(island.residual.max, 4);
+    EXPECT_EQ(island.residual_before.max, island.residual.max);
+    EXPECT_EQ(island.residual_before.energy, island.residual.energy);
+  }
 }
 
 }  // namespace

@@ -43,8 +43,7 @@ struct ContactImpulse {
 
 /// What resists turning at a point of contact, where Manifold::twists says so: rows about the
 /// normal, and about the two axes across it, with vectors for body_a (opposite ones for body_b);
-/// bounds
-/// +-min(coefficient x_normal, most), target 0.
+/// bounds +-min(coefficient x_normal, most), target 0.
 struct ContactTwist {
   float spinning;       ///< Coefficient about the normal [m], >= 0.
   float rolling;        ///< About the axes across it [m], >= 0.

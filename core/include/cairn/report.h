@@ -76,7 +76,10 @@ struct IslandReport {
   int first_body = -1;  ///< Lowest index of its bodies in the problem.
   int bodies = 0;
   int rows = 0;
-  Residual residual;
+  /// Of the start, as the first sweep finds it: each row when its turn comes, which costs nothing.
+  /// On the reference path (SweepOrder::kForward and its like) of the start itself.
+  Residual residual_before;
+  Residual residual;  ///< Of the result.
   int sweeps = 0;
   int factorisations = 0;
   int steps_accepted = 0;  ///< Subspace steps kept.

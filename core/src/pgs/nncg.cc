@@ -103,7 +103,8 @@ void Nncg::FindEnds(const Plan& plan) {
     const simd::PairBlock& block = plan.blocks()[b];
     int before = kAll;  // rows of a block mostly end together, as do those of an island
     for (const simd::RowShape& row : std::span(block.rows, block.row_count)) {
-      if (std::exchange(before, row.max_sweeps) == row.max_sweeps || row.max_sweeps == kAll) continue;
+      if (std::exchange(before, row.max_sweeps) == row.max_sweeps || row.max_sweeps == kAll)
+        continue;
       for (int l = 0; l < block.lanes; ++l) {
         const int island = plan.island_of(b, l);
         const int newest = std::exchange(newest_end_[island], row.max_sweeps);

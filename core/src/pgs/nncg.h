@@ -57,7 +57,7 @@ class Nncg {
     int sweeps, island;
     friend auto operator<=>(const End&, const End&) = default;
   };
-  std::vector<End> ends_;         ///< of the plan
+  std::vector<End> ends_;        ///< of the plan
   std::vector<int> newest_end_;  ///< by island, while ends are looked for
   int plan_number_ = -1;
   bool known_ = false;  ///< last_ is a state of this frame
