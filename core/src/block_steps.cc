@@ -19,9 +19,9 @@ struct StepPrices {
 };
 constexpr StepPrices kFloatPrices = {110, 100, 65, 0.014, 1.9, 240};
 constexpr StepPrices kDoublePrices = {230, 125, 80, 0.025, 2.2, 300};
-/// How far the proximal term falls where steps succeed, relative to what is set. Floats know
-/// nothing of what is smaller.
-constexpr double kLeastSoftening = 1.0 / 32;
+/// The same as IslandMemory::kLeastSoftening with a budget, which mostly has more sweeps. Floats
+/// know nothing of what is smaller.
+constexpr double kLeastSofteningOfBudget = 1.0 / 32;
 /// Per row, where the body graph is new.
 constexpr double kAnalyseRow = 20;
 
@@ -35,7 +35,7 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
   memories_ = memories;
   crew_ = crew;
   asked_ = asked;
-  adapts_ = settings.budget.kind() != Budget::Kind::kUnlimited || settings.replay != nullptr;
+  has_budget_ = settings.budget.kind() != Budget::Kind::kUnlimited || settings.replay != nullptr;
   if (!asked_) return;
   const Plan& plan = frame->plan();
   memory_of_island_.assign(plan.islands().size(), nullptr);
@@ -163,7 +163,8 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BudgetMeter* me
 
 void BlockSteps::Judge(int island, bool accepted) {
   if (accepted) {
-    MemoryOf(island)->Accepted(adapts_ ? kLeastSoftening : 1);
+    MemoryOf(island)->Accepted(has_budget_ ? kLeastSofteningOfBudget
+                                           : IslandMemory::kLeastSoftening);
   } else {
     MemoryOf(island)->Restored();
   }

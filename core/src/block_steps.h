@@ -65,7 +65,7 @@ class BlockSteps {
   IslandMemories* memories_ = nullptr;
   Crew* crew_ = nullptr;
   bool asked_ = false;
-  bool adapts_ = false;  ///< the proximal term may fall below what is set
+  bool has_budget_ = false;
 
   int plan_number_ = -1;             ///< of what follows
   std::vector<int> limits_;          ///< by group

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -20,9 +21,10 @@ inline constexpr double kBulletEpsilon = std::numeric_limits<btScalar>::epsilon(
 /// A scene of bench/scenes in its world, at its default size.
 class SceneWorld {
  public:
-  SceneWorld(std::string_view name, btConstraintSolver* solver) : world_(solver) {
+  SceneWorld(std::string_view name, btConstraintSolver* solver, std::uint64_t seed = 0)
+      : world_(solver) {
     scene_ = bench::Make(*bench::FindScene(name));
-    scene_->Build(&world_, {});
+    scene_->Build(&world_, {.seed = seed});
   }
 
   void Step(int frames) {

@@ -146,12 +146,13 @@ TEST(ThreadedWorlds, GiveLargeIslandsToTheirSolver) {
   ThreadedWorld threaded;
   AnyWorld& world = threaded.world();
   world.AddGround();
-  // 12 x 12 boxes side by side with 2 cm between them, and a second floor across the gaps
+  // 12 x 12 boxes side by side with 2 cm between them, and a second floor across the gaps, every
+  // box well above one of the first floor: the last column has nothing beside it
   for (int x = 0; x < 12; ++x) {
     for (int z = 0; z < 12; ++z) {
       for (int y = 0; y < 2; ++y) {
         const btTransform pose(btQuaternion::getIdentity(),
-                               {btScalar(1.02) * btScalar(x) + kHalf * btScalar(y),
+                               {btScalar(1.02) * btScalar(x) + kHalf / 2 * btScalar(y),
                                 btScalar(0.5) + btScalar(y), btScalar(1.02) * btScalar(z)});
         world.AddBox({kHalf, kHalf, kHalf}, 1, pose);
       }
@@ -166,7 +167,7 @@ TEST(ThreadedWorlds, GiveLargeIslandsToTheirSolver) {
   EXPECT_EQ(threaded.for_large.fallbacks, 0);
   EXPECT_TRUE(threaded.for_large.report().ok());
   ExpectTowersStand(world);
-  EXPECT_LT(world.LargestSpeed(), 9.81 / 60);  // what gravity gives in a step
+  EXPECT_LT(world.LargestSpeed(), 0.05);
 }
 
 TEST(ThreadedWorlds, LeaveAKinematicBodyOfManyIslandsAlone) {

@@ -28,6 +28,7 @@ Scene HardPile(std::uint64_t first_id) {
     scene = Pile(seed);
     Solver solver(Remembering());
     const Solution first = test::Solve(&solver, scene);
+    if (first.report.steps_restored == 0) continue;
     if (!test::SameBits(first, test::Solve(&solver, scene))) break;
   }
   for (Body& body : scene.bodies) body.id = first_id == 0 ? 0 : first_id++;

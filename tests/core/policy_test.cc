@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "packed.h"
 #include "problems.h"
@@ -61,7 +62,8 @@ TEST(IslandMemory, DoesNotPauseWhereStepsAreAlwaysTaken) {
   EXPECT_TRUE(asked.Pays(StepPolicy::kAlways));
 }
 
-// 5 times softer after a failure, at most 100 times; half as soft after a success, at least as set.
+// 5 times softer after a failure, at most 100 times; half as soft after a success, and below what
+// is set only as far as failures are forgotten.
 TEST(IslandMemory, SoftensStepsThatFailAndHardensThemAgain) {
   Asked asked(test::Tower(3));
   EXPECT_DOUBLE_EQ(asked.Softened(), 1);
@@ -69,10 +71,14 @@ TEST(IslandMemory, SoftensStepsThatFailAndHardensThemAgain) {
     asked.memory().Restored();
     EXPECT_DOUBLE_EQ(asked.Softened(), softening);
   }
-  for (double softening : {50.0, 25.0, 12.5, 6.25, 3.125, 1.5625, 1.0, 1.0}) {
+  for (double softening : {50.0, 25.0, 12.5, 6.25, 3.125, 1.5625}) {
     asked.memory().Accepted();
     EXPECT_DOUBLE_EQ(asked.Softened(), softening);
   }
+  asked.memory().Accepted();
+  EXPECT_DOUBLE_EQ(asked.Softened(), std::pow(0.98, 7));
+  for (int i = 0; i < 100; ++i) asked.memory().Accepted();
+  EXPECT_DOUBLE_EQ(asked.Softened(), IslandMemory::kLeastSoftening);
 }
 
 // Half the term after each success, down to what is allowed; after a failure not below five times

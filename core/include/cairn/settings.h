@@ -107,8 +107,8 @@ struct Settings {
   /// Proximal term of a subspace step on rows with bounds, relative to the diagonal of the row,
   /// in [1e-8, 1]. Contacts of a face are redundant and disagree by millimetres: smaller values
   /// make the step fit that disagreement, larger ones leave more of the slow error behind. The
-  /// solver raises it on an island where a step was rejected, and lowers it again to this floor.
-  /// With a budget it starts here and goes on down to 1/32 of it while steps are kept.
+  /// solver raises it on an island where a step was rejected, and lowers it while steps are kept:
+  /// down to 1/4 of this, with a budget to 1/32.
   double proximal = 3e-3;
   /// The same on rows without bounds (joints), in [1e-12, 1]. Where joints are redundant, each step
   /// adds impulses of what they contradict each other divided by it: 1e-8 made 100 times the

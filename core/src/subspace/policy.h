@@ -36,8 +36,11 @@ class IslandMemory {
   /// @pre StepPays()
   double Cost(const PackedIsland& island, const Settings& settings, int factorisations) const;
 
+  /// How far the proximal term falls where steps succeed, relative to what is set: with ten sweeps
+  /// around every step, what is smaller excites contacts that come and go.
+  static constexpr double kLeastSoftening = 1.0 / 4;
   /// @param least  factor on Settings::proximal that successes bring it down to, > 0
-  void Accepted(double least = 1);
+  void Accepted(double least = kLeastSoftening);
   void Restored();
 
   /// What a factorisation and its step last cost here, for each row, in the units of the caller; 0
