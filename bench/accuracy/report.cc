@@ -25,7 +25,7 @@ void PrintContext(const std::string& title, const cli::RunContext& context) {
 }
 
 nlohmann::ordered_json JsonHead(const std::string& subcommand, const cli::RunContext& context) {
-  return {{"schema", 1}, {"subcommand", subcommand}, {"context", cli::ToJson(context)}};
+  return {{"schema_version", 1}, {"subcommand", subcommand}, {"context", cli::ToJson(context)}};
 }
 
 void WriteJson(const std::string& path, const nlohmann::ordered_json& json) {

@@ -141,7 +141,7 @@ class StateMeter {
 class Walk {
  public:
   Walk(const cli::SceneChoice& scene, const StatesOptions& options)
-      : plan_(options.samples, options.frames),
+      : plan_(options.samples, 0, options.frames),
         run_(scene, options.advance),
         meter_(options),
         result_{.scene = scene, .states = {}, .empty = 0, .frames = {}} {}

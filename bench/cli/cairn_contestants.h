@@ -40,6 +40,7 @@ class CairnContestant : public Contestant {
   std::string refusal() const override;
   void RecordSpans(SpanRecorder* recorder) override { solver_.settings().spans = recorder; }
   int threads() override { return solver_.settings().threads; }
+  void AllowThreads(int threads) override { solver_.settings().threads = threads; }
 
  private:
   ObservedCairn solver_;

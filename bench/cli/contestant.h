@@ -50,8 +50,10 @@ class Contestant {
 
   /// Takes down the spans of threads from now on, where the solver can; nullptr: no more.
   virtual void RecordSpans(SpanRecorder*) {}
-  /// Threads that may work on a substep.
+  /// Threads that may work on a substep: 1, or as many as were allowed to a solver that has
+  /// threads.
   virtual int threads() { return 1; }
+  virtual void AllowThreads(int) {}
 
   /// Called with each solved group; none stops observing.
   virtual void Observe(Observer observer) = 0;

@@ -76,7 +76,7 @@ std::vector<Finding> Examine() {
 
 void Doctor(const std::string& json_path) {
   if (!json_path.empty()) CheckWritable(json_path);
-  nlohmann::ordered_json json = {{"schema", 1}};
+  nlohmann::ordered_json json = {{"schema_version", 1}};
   for (const Finding& finding : Examine()) {
     fmt::print("{:<14} {}\n", finding.name, finding.text);
     json[finding.name] = finding.text;

@@ -30,9 +30,9 @@ std::vector<Effort> Efforts(Control control) {
 
 }  // namespace
 
-EffortLadder::EffortLadder(const SolverEntry& entry, const btContactSolverInfo& defaults,
+EffortLadder::EffortLadder(const SolverChoice& choice, const btContactSolverInfo& defaults,
                            double most)
-    : entry_(entry), defaults_(defaults), most_(most) {}
+    : choice_(choice), defaults_(defaults), most_(most) {}
 
 double EffortLadder::Solve(const Rung& rung, bench::Substep* substep) const {
   btContactSolverInfo info = defaults_;
@@ -44,9 +44,9 @@ double EffortLadder::Solve(const Rung& rung, bench::Substep* substep) const {
 }
 
 void EffortLadder::Build(bench::Substep* substep) {
-  for (const Effort& effort : Efforts(entry_.control)) {
+  for (const Effort& effort : Efforts(choice_.entry->control)) {
     if (effort.budget && Milliseconds(*effort.budget) > most_) return;
-    const Rung& rung = rungs_.emplace_back(Rung{effort, entry_.make()});
+    const Rung& rung = rungs_.emplace_back(Rung{effort, choice_.Make()});
     // the first time is that of a cold start
     const double cold = Solve(rung, substep), warm = Solve(rung, substep);
     if (!effort.budget && std::min(cold, warm) > most_) return;

@@ -20,7 +20,7 @@ namespace cairn::cli {
 class EffortLadder {
  public:
   /// @param most  Time of a substep above which there is no further rung [ms].
-  EffortLadder(const SolverEntry& entry, const btContactSolverInfo& defaults, double most);
+  EffortLadder(const SolverChoice& choice, const btContactSolverInfo& defaults, double most);
 
   /// The state before one that is measured.
   void WarmUp(bench::Substep* substep);
@@ -36,7 +36,7 @@ class EffortLadder {
   double Solve(const Rung& rung, bench::Substep* substep) const;
   void Build(bench::Substep* substep);
 
-  const SolverEntry& entry_;
+  SolverChoice choice_;
   btContactSolverInfo defaults_;
   double most_;
   std::vector<Rung> rungs_;

@@ -13,7 +13,7 @@ ErrorSampler::ErrorSampler(std::span<const SolverChoice> solvers,
                            const btContactSolverInfo& defaults)
     : reference_(std::make_unique<bullet::ConstraintSolver>(bench::ReferenceSettings())),
       defaults_(defaults) {
-  for (const SolverChoice& choice : solvers) contestants_.push_back(choice.entry->make());
+  for (const SolverChoice& choice : solvers) contestants_.push_back(choice.Make());
 }
 
 void ErrorSampler::AddLadders(std::span<const SolverChoice> solvers, double most) {
@@ -23,7 +23,7 @@ void ErrorSampler::AddLadders(std::span<const SolverChoice> solvers, double most
     ladder_of_.push_back(known - kinds.begin());
     if (known != kinds.end()) continue;
     kinds.push_back(choice.entry);
-    ladders_.push_back(std::make_unique<EffortLadder>(*choice.entry, defaults_, most));
+    ladders_.push_back(std::make_unique<EffortLadder>(choice, defaults_, most));
   }
 }
 

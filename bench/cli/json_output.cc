@@ -36,12 +36,28 @@ Json ToJson(const Summary& s) {
           {"factorisations", s.factorisations}};
 }
 
+Json ToJson(const Setup& setup) {
+  return {{"threads", setup.threads},
+          {"simd_asked_for", setup.simd.empty() ? Json(nullptr) : Json(setup.simd)},
+          {"pinned_to_core", Maybe(setup.pinned)}};
+}
+
 Json Facts(const SolverResult& solver) {
   Json facts = Json::array();
   for (const Fact& fact : solver.facts) {
     facts.push_back({{"name", fact.name}, {"unit", fact.unit}, {"value", Number(fact.value)}});
   }
   return facts;
+}
+
+/// Values that count: null elsewhere.
+Json Repetition(const std::vector<Frame>& frames, const SceneResult& scene) {
+  Json times = Json::array(), residuals = Json::array();
+  for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    times.push_back(IsTimed(scene, i) ? Number(frames[i].time) : Json(nullptr));
+    residuals.push_back(i < scene.warmup ? Json(nullptr) : Number(frames[i].residual));
+  }
+  return {{"time_ms", times}, {"residual_m_s", residuals}};
 }
 
 Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResult& run) {
@@ -51,6 +67,8 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
   if (solver.failure) {
     failure = {{"frame", solver.failure->frame}, {"reason", solver.failure->reason}};
   }
+  Json repetitions = {Repetition(solver.frames, scene)};
+  for (const auto& frames : solver.repeated) repetitions.push_back(Repetition(frames, scene));
   return {{"solver", solver.label},
           {"effort", solver.effort},
           {"failure", failure},
@@ -64,7 +82,8 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
             {"iterations", PerFrame(solver, &Frame::iterations)},
             {"residual_m_s", PerFrame(solver, &Frame::residual)},
             {"steps_accepted", PerFrame(solver, &Frame::steps_accepted)},
-            {"steps_restored", PerFrame(solver, &Frame::steps_restored)}}}};
+            {"steps_restored", PerFrame(solver, &Frame::steps_restored)}}},
+          {"repetitions", repetitions}};
 }
 
 Json ToJson(const SceneResult& scene, const RunResult& run) {
@@ -76,19 +95,26 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
   }
   Json solvers = Json::array();
   for (const SolverResult& solver : scene.solvers) solvers.push_back(ToJson(solver, scene, run));
-  return {{"scene", scene.name},    {"size", scene.size},
-          {"seed", scene.seed},     {"bodies", scene.bodies},
-          {"joints", scene.joints}, {"residual_every", scene.observed_every},
-          {"samples", samples},     {"solvers", solvers}};
+  Json beats = Json::array();
+  for (const auto& repetition : scene.beats) beats.push_back(repetition);
+  return {
+      {"scene", scene.name},    {"size", scene.size},     {"seed", scene.seed},
+      {"bodies", scene.bodies}, {"joints", scene.joints}, {"residual_every", scene.observed_every},
+      {"samples", samples},     {"solvers", solvers},     {"metronome_ms", beats}};
 }
 
 }  // namespace
 
 std::string ToJson(const RunResult& run) {
+  Json context = ToJson(static_cast<const RunContext&>(run));
+  context["run"] = ToJson(run.setup);
+  context["run"].update({{"warmup_frames", run.warmup},
+                         {"repetitions", run.repeat},
+                         {"noise_shown", run.show_noise}});
   Json scenes = Json::array();
   for (const SceneResult& scene : run.scenes) scenes.push_back(ToJson(scene, run));
-  const Json json = {{"schema", 1},
-                     {"context", ToJson(static_cast<const RunContext&>(run))},
+  const Json json = {{"schema_version", 1},
+                     {"context", context},
                      {"frames", run.frames},
                      {"budget_ms", run.budget ? Json(Milliseconds(*run.budget)) : Json(nullptr)},
                      {"scenes", scenes}};

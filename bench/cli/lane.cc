@@ -49,7 +49,7 @@ void Observe(const ContactProblem& problem, std::span<const double> impulses, Fr
 }  // namespace
 
 Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOptions& options)
-    : contestant_(choice.entry->make()),
+    : contestant_(choice.Make()),
       watched_(contestant_->solver()),
       world_(&watched_),
       scene_(scene.make()),

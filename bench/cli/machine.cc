@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "cli/duration.h"
+#include "cli/metronome.h"
+#include "cli/names.h"
 #include "cli/statistics.h"
 
 namespace cairn::cli {
@@ -20,27 +24,11 @@ constexpr std::chrono::milliseconds kUnitOfWork(2);
 constexpr double kQuiet = 3;  // [%]
 constexpr double kNoisy = 15;
 
-/// A chain of dependent additions and multiplications: nothing but the clock of the CPU decides how
-/// long it takes.
-void Work(int length) {
-  volatile double start = 0.5, sink = 0;  // volatile: the compiler knows how the chain ends
-  double value = start;
-  for (int i = 0; i < length; ++i) value = value * 0.999999 + 1e-6;
-  sink = value;
-  static_cast<void>(sink);
-}
-
-double TimeWork(int length) {
-  const Clock::time_point start = Clock::now();
-  Work(length);
-  return Milliseconds(Clock::now() - start);
-}
-
 int LengthOfWork() {
   int length = 1 << 16;
-  while (TimeWork(length) < Milliseconds(kUnitOfWork) / 2) length *= 2;
-  double best = TimeWork(length);
-  for (int i = 0; i < 5; ++i) best = std::min(best, TimeWork(length));
+  while (TimeChain(length) < Milliseconds(kUnitOfWork) / 2) length *= 2;
+  double best = TimeChain(length);
+  for (int i = 0; i < 5; ++i) best = std::min(best, TimeChain(length));
   return std::max(1, static_cast<int>(length * Milliseconds(kUnitOfWork) / best));
 }
 
@@ -51,13 +39,42 @@ std::string FirstLine(const char* path) {
   return line;
 }
 
-std::string CpuModel() {
+/// Of the first core.
+std::string CpuInfo(std::string_view name) {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
     const size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+    if (line.starts_with(name) && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "";
+}
+
+/// The number a text starts with, 0 if there is none.
+double LeadingNumber(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+/// Cores in a list of the kernel: "0-3,8" are five.
+int CountCores(const std::string& list) {
+  int count = 0;
+  for (const std::string& part : Split(list, ',')) {
+    const std::vector<std::string> ends = Split(part, '-');
+    count += 1 + static_cast<int>(LeadingNumber(ends.back()) - LeadingNumber(ends.front()));
+  }
+  return count;
+}
+
+std::vector<Cache> DescribeCaches() {
+  std::vector<Cache> caches;
+  for (int i = 0;; ++i) {
+    const std::string folder = fmt::format("/sys/devices/system/cpu/cpu0/cache/index{}/", i);
+    const std::string size = FirstLine((folder + "size").c_str());
+    if (size.empty()) return caches;
+    const double unit = size.ends_with('M') ? 1 << 20 : size.ends_with('K') ? 1 << 10 : 1;
+    caches.push_back(
+        {.type = FirstLine((folder + "type").c_str()),
+         .level = static_cast<int>(LeadingNumber(FirstLine((folder + "level").c_str()))),
+         .bytes = static_cast<std::int64_t>(LeadingNumber(size) * unit),
+         .cores = CountCores(FirstLine((folder + "shared_cpu_list").c_str()))});
+  }
 }
 
 }  // namespace
@@ -66,7 +83,7 @@ Noise MeasureNoise(std::chrono::milliseconds duration) {
   const int length = LengthOfWork();
   std::vector<double> times;
   const Clock::time_point end = Clock::now() + duration;
-  while (Clock::now() < end || times.size() < 10) times.push_back(TimeWork(length));
+  while (Clock::now() < end || times.size() < 10) times.push_back(TimeChain(length));
 
   Noise noise;
   noise.repetitions = static_cast<int>(times.size());
@@ -84,7 +101,9 @@ Noise MeasureNoise(std::chrono::milliseconds duration) {
 
 Machine DescribeMachine() {
   Machine machine;
-  machine.cpu = CpuModel();
+  machine.cpu = CpuInfo("model name");
+  machine.megahertz = static_cast<int>(LeadingNumber(CpuInfo("cpu MHz")));
+  machine.caches = DescribeCaches();
   machine.cores = static_cast<int>(std::thread::hardware_concurrency());
   machine.governor = FirstLine("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
   const std::string load = FirstLine("/proc/loadavg");

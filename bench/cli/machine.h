@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace cairn::cli {
 
@@ -20,10 +22,20 @@ struct Noise {
 /// Repeats about 2 ms of arithmetic for as long as asked.
 Noise MeasureNoise(std::chrono::milliseconds duration);
 
+/// A cache of the first core.
+struct Cache {
+  std::string type;  ///< "Data", "Instruction" or "Unified".
+  int level = 0;
+  std::int64_t bytes = 0;
+  int cores = 0;  ///< That share it.
+};
+
 /// Where and with what a run was made. Empty texts where the system does not say.
 struct Machine {
   std::string cpu;
   int cores = 0;
+  int megahertz = 0;  ///< As the system says, 0 if it does not.
+  std::vector<Cache> caches;
   std::string governor;      ///< CPU frequency governor.
   std::string load_average;  ///< "0.12 0.30 0.25": 1, 5 and 15 minutes.
 };

@@ -9,6 +9,7 @@
 
 #include "cli/progress.h"
 #include "cli/scene_choice.h"
+#include "cli/setup.h"
 #include "cli/solver_registry.h"
 
 namespace cairn::cli {
@@ -20,9 +21,13 @@ struct RunOptions {
   std::optional<std::chrono::nanoseconds> budget;
   IterationRule iterations;
   int frames = 300;
+  int warmup = 0;  ///< The first frames, which are run but do not count.
+  int repeat = 1;  ///< Times that everything is run.
+  Setup setup;
   std::uint64_t seed = 0;
   int samples = 8;
   ProgressMode progress = ProgressMode::kAuto;
+  bool noise = false;  ///< Shows how noisy the machine was.
   /// Records what only the page shows: facts of each frame, motion, and error against time.
   bool page = false;
   /// Records what threads do in each frame, and keeps the slowest frame, or this one.

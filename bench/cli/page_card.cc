@@ -7,6 +7,7 @@
 #include <charconv>
 #include <string_view>
 
+#include "cli/noise_table.h"
 #include "cli/page_parts.h"
 #include "cli/run_tables.h"
 #include "cli/summary.h"
@@ -53,7 +54,7 @@ std::vector<std::string> Warnings(const RunResult& run) {
   if (run.build.build_type != "Release") {
     warnings.push_back("Not a release build: " + run.build.build_type + ".");
   }
-  warnings.push_back("Threads were not pinned to cores.");
+  if (!run.setup.pinned) warnings.push_back("Threads were not pinned to cores.");
   return warnings;
 }
 
@@ -98,7 +99,8 @@ std::string MethodBox(const RunResult& run) {
           "{}, {} cores, {}; load {}; {} instructions in force", run.machine.cpu, run.machine.cores,
           run.machine.governor.empty() ? "governor unknown" : "governor " + run.machine.governor,
           run.machine.load_average, run.simd_target));
-  html += Entry("Noise", run.noise.verdict);
+  html += Entry("Run", DescribeRun(run));
+  html += Entry("Noise", run.noise.verdict + "; " + DescribeBeats(run));
   html += "<dt>Warnings</dt><dd>" + List(Warnings(run)) + "</dd>\n";
   html += Entry("Cairn", fmt::format("{}, {}, {}", run.build.version, run.build.compiler,
                                      run.build.build_type));

@@ -11,6 +11,7 @@
 #include "cli/frame_facts.h"
 #include "cli/replay.h"
 #include "cli/run_context.h"
+#include "cli/setup.h"
 #include "cli/timeline.h"
 
 namespace cairn::cli {
@@ -49,14 +50,16 @@ struct SolverFailure {
 /// One solver on one scene.
 struct SolverResult {
   std::string label;
-  bool counts_iterations = true;  ///< False for a direct solver.
-  bool is_ours = false;           ///< A solver of Cairn.
-  std::string effort;             ///< "10 iterations", "2 ms": what it was told.
-  std::vector<Frame> frames;
+  bool counts_iterations = true;             ///< False for a direct solver.
+  bool is_ours = false;                      ///< A solver of Cairn.
+  std::string effort;                        ///< "10 iterations", "2 ms": what it was told.
+  std::vector<Frame> frames;                 ///< Of the first repetition, as all that follows.
+  std::vector<std::vector<Frame>> repeated;  ///< Frames of the further repetitions.
   /// For each sample [m/s]; NaN where the solver refused the state.
   std::vector<double> velocity_errors;
   std::optional<double> fallback_share;  ///< Calls it left to another solver, in [0, 1].
-  std::optional<SolverFailure> failure;  ///< Its world was not stepped after this frame.
+  /// Of the first repetition that failed: its world was not stepped after this frame.
+  std::optional<SolverFailure> failure;
   std::vector<Fact> facts;
   std::optional<bool> standing;  ///< Only where the scene is something that can fall.
   /// For each sample, from the least effort on; with RunOptions::page.
@@ -79,7 +82,10 @@ struct SceneResult {
   int bodies = 0, joints = 0;
   double mass_ratio = kNotMeasured;  ///< Of the heaviest body and the lightest.
   int observed_every = 1;            ///< The residual was measured in every k-th frame.
-  bool bullet_has_zones = true;      ///< Bullet's profiler calls its hooks, as far as is known.
+  int warmup = 0;                    ///< The first frames, which do not count.
+  /// Of each repetition: what Metronome::Beat() took after each frame [ms].
+  std::vector<std::vector<double>> beats;
+  bool bullet_has_zones = true;  ///< Bullet's profiler calls its hooks, as far as is known.
   std::vector<Sample> samples;
   std::vector<SolverResult> solvers;
 };
@@ -88,6 +94,10 @@ struct SceneResult {
 struct RunResult : RunContext {
   std::optional<std::chrono::nanoseconds> budget;
   int frames = 0;  ///< asked for
+  int warmup = 0;  ///< of these
+  int repeat = 1;
+  Setup setup;
+  bool show_noise = false;
   std::vector<SceneResult> scenes;
 
   /// A solver of Cairn failed.

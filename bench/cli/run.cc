@@ -10,6 +10,7 @@
 #include "cli/duration.h"
 #include "cli/error_sampler.h"
 #include "cli/lane.h"
+#include "cli/metronome.h"
 #include "cli/sample_plan.h"
 
 namespace cairn::cli {
@@ -27,8 +28,10 @@ double LongestSubstep(const RunOptions& options) {
 
 class SceneRun {
  public:
-  SceneRun(const SceneChoice& scene, const RunOptions& options)
-      : options_(options), plan_(options.samples, options.frames) {
+  SceneRun(const SceneChoice& scene, const RunOptions& options, Metronome* metronome)
+      : options_(options),
+        plan_(options.samples, options.warmup, options.frames),
+        metronome_(metronome) {
     for (const SolverChoice& solver : options.solvers) {
       lanes_.push_back(std::make_unique<Lane>(scene, solver, options));
     }
@@ -38,6 +41,8 @@ class SceneRun {
     result_.seed = options.seed;
     result_.bodies = static_cast<int>(lanes_.front()->world().dynamic_bodies().size());
     result_.joints = static_cast<int>(lanes_.front()->world().joints().size());
+    result_.warmup = options.warmup;
+    result_.beats.emplace_back();
     result_.observed_every = result_.bodies > kManyBodies ? kSparse : 1;
     result_.mass_ratio = MassRatio(lanes_.front()->world());
     sampler_ = std::make_unique<ErrorSampler>(options.solvers, lanes_.front()->defaults());
@@ -53,6 +58,7 @@ class SceneRun {
       lane->Step(observing);
       if (!disturbed || options_.trace_frame) lane->KeepTimeline(options_.trace_frame);
     }
+    result_.beats.front().push_back(metronome_->Beat());
   }
 
   bool AllFailed() const {
@@ -93,24 +99,50 @@ class SceneRun {
 
   const RunOptions& options_;
   SamplePlan plan_;
+  Metronome* metronome_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::unique_ptr<ErrorSampler> sampler_;
   SceneResult result_;
 };
 
+/// Adds what another repetition of a scene found; numbers and pictures stay those of the first.
+void AddRepetition(int number, SceneResult again, SceneResult* scene) {
+  scene->beats.push_back(std::move(again.beats.front()));
+  for (size_t i = 0; i < scene->solvers.size(); ++i) {
+    SolverResult& solver = scene->solvers[i];
+    solver.repeated.push_back(std::move(again.solvers[i].frames));
+    const std::optional<SolverFailure>& failure = again.solvers[i].failure;
+    if (!failure || solver.failure) continue;
+    solver.failure = {.frame = failure->frame,
+                      .reason = fmt::format("in repetition {}: {}", number, failure->reason)};
+  }
+}
+
 }  // namespace
 
 RunResult Run(const RunOptions& options, const std::string& command) {
-  RunResult result{DescribeContext(command), options.budget, options.frames, {}};
+  RunResult result{DescribeContext(command), options.budget, options.frames, options.warmup,
+                   options.repeat,           options.setup,  options.noise,  {}};
 
   Progress progress(options.progress);
-  for (const SceneChoice& scene : options.scenes) {
-    SceneRun run(scene, options);
-    for (int frame = 0; frame < options.frames && !run.AllFailed(); ++frame) {
-      progress.Show(fmt::format("{}: frame {} of {}", scene.info->name, frame, options.frames));
-      run.Step(frame);
+  Metronome metronome;
+  for (int repetition = 1; repetition <= options.repeat; ++repetition) {
+    for (size_t i = 0; i < options.scenes.size(); ++i) {
+      const SceneChoice& scene = options.scenes[i];
+      SceneRun run(scene, options, &metronome);
+      for (int frame = 0; frame < options.frames && !run.AllFailed(); ++frame) {
+        progress.Show(fmt::format("{}: frame {} of {}{}", scene.info->name, frame, options.frames,
+                                  options.repeat == 1 ? ""
+                                                      : fmt::format(", repetition {} of {}",
+                                                                    repetition, options.repeat)));
+        run.Step(frame);
+      }
+      if (repetition == 1) {
+        result.scenes.push_back(run.Finish());
+      } else {
+        AddRepetition(repetition, run.Finish(), &result.scenes[i]);
+      }
     }
-    result.scenes.push_back(run.Finish());
   }
   return result;
 }

@@ -16,6 +16,7 @@
 #include "cli/html_report.h"
 #include "cli/imported_scene.h"
 #include "cli/json_output.h"
+#include "cli/noise_table.h"
 #include "cli/output_file.h"
 #include "cli/run.h"
 #include "cli/run_tables.h"
@@ -29,6 +30,8 @@ struct RunWords {
   std::vector<std::string> scenes, imports;
   std::string solvers = "bullet-si,bullet-nncg,bullet-dantzig,cairn";
   std::string budget, iterations, frames = "300", size, seed = "0", samples = "8";
+  std::string threads = "1", simd, pin, repeat = "1", warmup = "0";
+  bool noise = false;
   std::string json, csv, markdown, report, trace, trace_frame;
   OutputWords output;
 };
@@ -66,6 +69,13 @@ RunOptions Check(const RunWords& words) {
   }
   options.frames = static_cast<int>(
       ParseCount("--frames", words.frames, 1, 1'000'000, "frames of 1/60 s to simulate"));
+  options.warmup = static_cast<int>(ParseCount("--warmup", words.warmup, 0, options.frames - 1,
+                                               "the first frames, which do not count"));
+  options.repeat = static_cast<int>(
+      ParseCount("--repeat", words.repeat, 1, 1000, "times that everything is run"));
+  options.noise = words.noise;
+  options.setup = ParseSetup(words.threads, words.simd, words.pin);
+  for (SolverChoice& solver : options.solvers) solver.threads = options.setup.threads;
   options.samples = static_cast<int>(ParseCount("--samples", words.samples, 0, 1000,
                                                 "frames at which the velocity error is measured"));
   options.progress = ParseProgress(words.output);
@@ -92,6 +102,7 @@ RunOptions Check(const RunWords& words) {
 
 int DoRun(const RunWords& words, const std::string& command) {
   const RunOptions options = Check(words);
+  Apply(options.setup);
   const std::pair<std::string, std::string (*)(const RunResult&)> files[] = {
       {words.json, &ToJson},
       {words.csv, &ToCsv},
@@ -103,6 +114,7 @@ int DoRun(const RunWords& words, const std::string& command) {
   }
   const RunResult result = Run(options, command);
   fmt::print("{}", ToText(result));
+  if (options.noise) fmt::print("{}\n", NoiseText(result));
   if (!words.output.quiet) fmt::print("{}", ReadingHelp(result));
   for (const auto& [path, format] : files) {
     if (!path.empty()) WriteFile(path, format(result));
@@ -139,6 +151,15 @@ Command AddRunCommand(CLI::App* app) {
       "Displaces bodies by up to 0.1 mm, differently for each seed; default 0: none", "N");
   add("--samples", &words->samples,
       "Frames at which the velocity error is measured, at most a quarter of all; default 8", "N");
+  add("--warmup", &words->warmup,
+      "Frames, the first ones, that are run and do not count; default 0", "N");
+  add("--repeat", &words->repeat,
+      "Runs everything N times: times are of all, the rest is of the first; default 1", "N");
+  add("--threads", &words->threads, "Threads that Cairn may use; default 1", "N");
+  add("--simd", &words->simd, "SIMD target of Cairn instead of the best; see cairn doctor",
+      "TARGET");
+  add("--pin", &words->pin, "Stays on this core, counted from 0", "CORE");
+  run->add_flag("--noise", words->noise, "Shows how noisy the machine was during the run");
   add("--json", &words->json, "Write everything that was measured", "FILE");
   add("--csv", &words->csv, "Write a line for each scene, solver and frame", "FILE");
   add("--markdown", &words->markdown, "Write the tables as Markdown", "FILE");

@@ -4,10 +4,13 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "cli/json_number.h"
+#include "cli/names.h"
 #include "simd/target.h"
 
 namespace cairn::cli {
@@ -27,6 +30,23 @@ Json ToJson(const BuildInfo& build) {
             {"library", build.bullet_library}}}};
 }
 
+Json ToJson(const std::vector<Cache>& caches) {
+  Json list = Json::array();
+  for (const Cache& cache : caches) {
+    list.push_back({{"type", cache.type},
+                    {"level", cache.level},
+                    {"size", cache.bytes},
+                    {"num_sharing", cache.cores}});
+  }
+  return list;
+}
+
+Json LoadAverages(const std::string& text) {
+  Json list = Json::array();
+  for (const std::string& word : Split(text, ' ')) list.push_back(std::atof(word.c_str()));
+  return list;
+}
+
 }  // namespace
 
 RunContext DescribeContext(const std::string& command) {
@@ -39,13 +59,22 @@ RunContext DescribeContext(const std::string& command) {
 }
 
 Json ToJson(const RunContext& context) {
+  const Machine& machine = context.machine;
   return {{"date", context.date},
           {"command", context.command},
+          {"executable", program_invocation_short_name},
+          {"num_cpus", machine.cores},
+          {"mhz_per_cpu", machine.megahertz == 0 ? Json(nullptr) : Json(machine.megahertz)},
+          {"cpu_scaling_enabled",
+           machine.governor.empty() ? Json(nullptr) : Json(machine.governor != "performance")},
+          {"caches", ToJson(machine.caches)},
+          {"load_avg", LoadAverages(machine.load_average)},
+          {"library_build_type", context.build.build_type},
           {"host",
-           {{"cpu", context.machine.cpu},
-            {"cores", context.machine.cores},
-            {"governor", context.machine.governor},
-            {"load_average", context.machine.load_average},
+           {{"cpu", machine.cpu},
+            {"cores", machine.cores},
+            {"governor", machine.governor},
+            {"load_average", machine.load_average},
             {"simd_target", context.simd_target}}},
           {"build", ToJson(context.build)},
           {"noise",

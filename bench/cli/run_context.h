@@ -23,6 +23,7 @@ struct RunContext {
 /// @param command  what was typed
 RunContext DescribeContext(const std::string& command);
 
+/// With the names of Google Benchmark where it has them; the name of the host is nobody's business.
 nlohmann::ordered_json ToJson(const RunContext& context);
 
 }  // namespace cairn::cli

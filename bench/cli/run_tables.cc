@@ -114,6 +114,18 @@ std::string SceneHeading(const SceneResult& scene, const RunResult& run) {
       run.budget ? "budget " + FormatDuration(*run.budget) + " a frame" : std::string("no budget"));
 }
 
+std::string DescribeRun(const RunResult& run) {
+  return fmt::format(
+      "{} frames, {}, {}; {}; {} instructions{}", run.frames,
+      run.warmup == 0 ? std::string("all of which count")
+                      : fmt::format("the first {} of which do not count", run.warmup),
+      run.repeat == 1 ? std::string("once")
+                      : fmt::format("{} times, of which all count in times and "
+                                    "residuals and the first in the rest",
+                                    run.repeat),
+      Describe(run.setup), run.simd_target, run.setup.simd.empty() ? "" : " by request");
+}
+
 std::string ReadingHelp(const RunResult& run) {
   std::string help =
       "p50, p99, p99.9, max: time in the solver per frame, set-up and write-back included; the "
@@ -147,8 +159,8 @@ std::string ReadingHelp(const RunResult& run) {
       }
     }
   }
-  help += fmt::format("Compared with {}.\nMachine: {}, {}.\n", DescribeBullet(run.build),
-                      run.machine.cpu, run.noise.verdict);
+  help += fmt::format("Compared with {}.\nMachine: {}, {}.\nRun: {}.\n", DescribeBullet(run.build),
+                      run.machine.cpu, run.noise.verdict, DescribeRun(run));
   return help;
 }
 

@@ -15,6 +15,8 @@ TextTable FactsTable(const SceneResult& scene, const RunResult& run);
 
 /// One line that says what was simulated.
 std::string SceneHeading(const SceneResult& scene, const RunResult& run);
+/// How often and on what the solvers ran, in half a sentence.
+std::string DescribeRun(const RunResult& run);
 /// How to read the tables, a few lines of at most 110 columns.
 std::string ReadingHelp(const RunResult& run);
 

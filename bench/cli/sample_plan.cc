@@ -5,12 +5,12 @@
 
 namespace cairn::cli {
 
-SamplePlan::SamplePlan(int samples, int frames)
-    : samples_(std::min(samples, frames / 4)), frames_(frames) {}
+SamplePlan::SamplePlan(int samples, int first, int frames)
+    : samples_(std::min(samples, (frames - first) / 4)), first_(first), frames_(frames) {}
 
 int SamplePlan::FrameOf(int sample) const {
   // In the middle of each of samples_ equal parts, which are 4 frames or longer.
-  return static_cast<int>((2LL * sample + 1) * frames_ / (2LL * samples_));
+  return first_ + static_cast<int>((2LL * sample + 1) * (frames_ - first_) / (2LL * samples_));
 }
 
 bool SamplePlan::IsSample(int frame) const {

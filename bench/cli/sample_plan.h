@@ -3,11 +3,11 @@
 
 namespace cairn::cli {
 
-/// Which frames are sampled: `samples` of them, spread evenly; at most one in four, so that enough
-/// frames are left to be timed.
+/// Which frames from `first` on are sampled: `samples` of them, spread evenly; at most one in four,
+/// so that enough frames are left to be timed.
 class SamplePlan {
  public:
-  SamplePlan(int samples, int frames);
+  SamplePlan(int samples, int first, int frames);
 
   int samples() const { return samples_; }
   bool IsSample(int frame) const;
@@ -17,7 +17,7 @@ class SamplePlan {
  private:
   int FrameOf(int sample) const;
 
-  int samples_, frames_;
+  int samples_, first_, frames_;
 };
 
 }  // namespace cairn::cli

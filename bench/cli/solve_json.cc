@@ -129,7 +129,7 @@ std::string ToJson(const SolveResult& result) {
   for (const SkippedFolder& folder : result.skipped) {
     skipped.push_back({{"name", folder.name}, {"reason", folder.reason}});
   }
-  const Json json = {{"schema", 1},
+  const Json json = {{"schema_version", 1},
                      {"context", ToJson(static_cast<const RunContext&>(result))},
                      {"settings", Settings(result)},
                      {"problems", List(result.problems)},

@@ -51,6 +51,13 @@ struct SolverChoice {
   const SolverEntry* entry;
   std::optional<IterationRule> own_iterations;
   std::string label;
+  int threads = 1;  ///< That it may use, if it has threads.
+
+  std::unique_ptr<Contestant> Make() const {
+    std::unique_ptr<Contestant> contestant = entry->make();
+    contestant->AllowThreads(threads);
+    return contestant;
+  }
 };
 
 /// Solvers of a list of names with commas. @throws Failure (kUsage)

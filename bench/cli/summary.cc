@@ -20,6 +20,19 @@ bool IsSampled(const SceneResult& scene, int frame) {
   });
 }
 
+/// The frames of a solver that count, of all repetitions.
+struct Counted {
+  std::vector<double> times, iterations, residuals;
+
+  void Add(const std::vector<Frame>& frames, const SceneResult& scene) {
+    for (size_t i = scene.warmup; i < frames.size(); ++i) {
+      if (IsTimed(scene, static_cast<int>(i))) times.push_back(frames[i].time);
+      iterations.push_back(frames[i].iterations);
+      residuals.push_back(frames[i].residual);
+    }
+  }
+};
+
 /// Errors closer than this are not told apart: the samples are few.
 constexpr double kLevel = 1.1;
 
@@ -84,15 +97,19 @@ bool RunResult::check_failed() const {
   return false;
 }
 
+bool IsTimed(const SceneResult& scene, int frame) {
+  return frame >= scene.warmup && !IsSampled(scene, frame);
+}
+
 Summary Summarise(const SolverResult& solver, const SceneResult& scene,
                   std::optional<std::chrono::nanoseconds> budget) {
-  std::vector<double> times, iterations, residuals;
+  Counted counted;
+  counted.Add(solver.frames, scene);
+  for (const std::vector<Frame>& frames : solver.repeated) counted.Add(frames, scene);
+  const auto& [times, iterations, residuals] = counted;
   Summary summary;
-  for (size_t i = 0; i < solver.frames.size(); ++i) {
+  for (size_t i = scene.warmup; i < solver.frames.size(); ++i) {
     const Frame& frame = solver.frames[i];
-    if (!IsSampled(scene, static_cast<int>(i))) times.push_back(frame.time);
-    iterations.push_back(frame.iterations);
-    residuals.push_back(frame.residual);
     summary.steps_accepted += frame.steps_accepted;
     summary.steps_restored += frame.steps_restored;
     summary.factorisations += frame.factorisations;

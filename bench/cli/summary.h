@@ -9,9 +9,13 @@
 
 namespace cairn::cli {
 
-/// The frames of a solver in a few numbers; NaN where nothing was measured.
+/// Whether the times of that frame count: it is no warm-up, and no state was sampled in it.
+bool IsTimed(const SceneResult& scene, int frame);
+
+/// The frames of a solver that count, of all repetitions, in a few numbers; NaN where nothing was
+/// measured. What is counted and not averaged is of the first repetition, `overruns` excepted.
 struct Summary {
-  /// Time in the solver [ms], frames after which all were given a sampled state not counted.
+  /// Time in the solver [ms] where IsTimed().
   double p50 = kNotMeasured, p99 = kNotMeasured, p999 = kNotMeasured, max = kNotMeasured;
   int timed_frames = 0;
   std::optional<int> overruns;       ///< Timed frames above the budget, if there is one.

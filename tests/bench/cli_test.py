@@ -141,7 +141,7 @@ class RunTest(CairnTest):
 
         with open(self.path("json"), encoding="utf-8") as file:
             result = json.load(file)
-        self.assertEqual(result["schema"], 1)
+        self.assertEqual(result["schema_version"], 1)
         self.assertEqual(result["budget_ms"], 2)
         self.assertNotIn(self.folder, json.dumps(result), "no paths of this machine")
         self.assertIn("--json json", result["context"]["command"])
@@ -365,7 +365,7 @@ class DoctorTest(CairnTest):
             self.assertIn(words, out)
         with open(self.path("d.json"), encoding="utf-8") as file:
             findings = json.load(file)
-        self.assertEqual(findings["schema"], 1)
+        self.assertEqual(findings["schema_version"], 1)
         self.assertIn(findings["verdict"], out)
 
     def test_a_simd_target_that_does_not_exist_is_named(self):

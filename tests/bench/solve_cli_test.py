@@ -250,7 +250,7 @@ class SolveTest(SolveTestCase):
             "--k-sm", "1", "--tolerance", "1e-8", "--max-sweeps", "400", "--order", "symmetric",
             "--threads", "1", "--budget", "30s", "--repeat", "3", "--start", "zero",
             "--errors", "1e-3,1e-1,1e-3")
-        self.assertEqual(result["schema"], 1)
+        self.assertEqual(result["schema_version"], 1)
         self.assertEqual(result["settings"], {
             "solvers": ["psor"], "start": "zero", "tolerance": 1e-8, "max_sweeps": 400,
             "budget_ms": 30000, "order": "symmetric", "threads": 1, "k_gs": 7, "k_sm": 1,
