@@ -5,6 +5,7 @@
 
 #include "cli/duration.h"
 #include "cli/json_number.h"
+#include "cli/run_file.h"
 #include "cli/summary.h"
 
 namespace cairn::cli {
@@ -86,6 +87,15 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
           {"repetitions", repetitions}};
 }
 
+Json ToJson(const std::vector<Metronome::Beat>& beats) {
+  Json arithmetic = Json::array(), memory = Json::array();
+  for (const Metronome::Beat& beat : beats) {
+    arithmetic.push_back(beat.arithmetic);
+    memory.push_back(beat.memory);
+  }
+  return {{"arithmetic_ms", arithmetic}, {"memory_ms", memory}};
+}
+
 Json ToJson(const SceneResult& scene, const RunResult& run) {
   Json samples = Json::array();
   for (const Sample& sample : scene.samples) {
@@ -96,11 +106,11 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
   Json solvers = Json::array();
   for (const SolverResult& solver : scene.solvers) solvers.push_back(ToJson(solver, scene, run));
   Json beats = Json::array();
-  for (const auto& repetition : scene.beats) beats.push_back(repetition);
+  for (const auto& repetition : scene.beats) beats.push_back(ToJson(repetition));
   return {
       {"scene", scene.name},    {"size", scene.size},     {"seed", scene.seed},
       {"bodies", scene.bodies}, {"joints", scene.joints}, {"residual_every", scene.observed_every},
-      {"samples", samples},     {"solvers", solvers},     {"metronome_ms", beats}};
+      {"samples", samples},     {"solvers", solvers},     {"metronome", beats}};
 }
 
 }  // namespace
@@ -113,7 +123,7 @@ std::string ToJson(const RunResult& run) {
                          {"noise_shown", run.show_noise}});
   Json scenes = Json::array();
   for (const SceneResult& scene : run.scenes) scenes.push_back(ToJson(scene, run));
-  const Json json = {{"schema_version", 1},
+  const Json json = {{"schema_version", kRunSchema},
                      {"context", context},
                      {"frames", run.frames},
                      {"budget_ms", run.budget ? Json(Milliseconds(*run.budget)) : Json(nullptr)},

@@ -8,6 +8,7 @@
 #include "CLI/CLI.hpp"
 #include "cli/command.h"
 #include "cli/command_line.h"
+#include "cli/compare_command.h"
 #include "cli/doctor.h"
 #include "cli/failure.h"
 #include "cli/list.h"
@@ -95,7 +96,8 @@ int Main(Arguments arguments) {
       "--float64, or --precision float64, with any command: with Bullet in double precision.\n"
       "'cairn COMMAND --help' says more. First tries: cairn run tower --budget 2ms,\n"
       "cairn solve journal-bearing");
-  const Command commands[] = {AddDoctor(&app), AddList(&app), AddRunCommand(&app),
+  const Command commands[] = {AddDoctor(&app),        AddList(&app),
+                              AddRunCommand(&app),    AddCompareCommand(&app),
                               AddRecordCommand(&app), AddSolveCommand(&app)};
   Arguments names;
   for (const Command& command : commands) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace cairn::cli {
@@ -10,18 +11,22 @@ namespace cairn::cli {
 /// CPU, and who else wants it, decides how long that takes [ms].
 double TimeChain(int length);
 
-/// The same small piece of work, over and over, beside what is measured: if it takes longer, so
-/// does everything. Takes about 0.1 ms and the same number of instructions in every process.
+/// The same two small pieces of work, over and over, beside what is measured: if they take longer,
+/// so does everything. The same number of instructions in every process.
 class Metronome {
  public:
   Metronome();
 
-  /// Does the work. Time it took [ms].
-  double Beat();
+  struct Beat {
+    double arithmetic = 0;  ///< A chain in registers: the clock of the core [ms].
+    double memory = 0;      ///< Reads beyond the caches of the core: who else uses them [ms].
+  };
+  /// Does the work; takes about 0.1 ms.
+  Beat Strike();
 
  private:
-  std::vector<float> values_;  ///< What a solver has of a small scene, in size.
-  std::vector<int> order_;
+  std::vector<float> values_;
+  std::uint32_t state_ = 1;
 };
 
 }  // namespace cairn::cli

@@ -13,14 +13,20 @@
 namespace cairn::cli {
 namespace {
 
-std::string Percent(double share) { return fmt::format("{:.1f}", 100 * share); }
+using Beat = Metronome::Beat;
 
-double TimedMedian(const SceneResult& scene, const std::vector<Frame>& frames) {
+std::vector<double> Values(const std::vector<Beat>& beats, double Beat::*part) {
+  std::vector<double> values;
+  for (const Beat& beat : beats) values.push_back(beat.*part);
+  return values;
+}
+
+std::vector<double> TimedFrames(const SceneResult& scene, const std::vector<Frame>& frames) {
   std::vector<double> times;
   for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
     if (IsTimed(scene, i)) times.push_back(frames[i].time);
   }
-  return Median(times);
+  return times;
 }
 
 /// A row of the table: the medians of repetitions and how far they are apart.
@@ -32,22 +38,37 @@ std::vector<std::string> Row(const std::string& scene, const std::string& who,
           FormatTime(least),
           FormatTime(Median(medians)),
           FormatTime(most),
-          medians.size() < 2 || std::isnan(least) ? "-" : Percent(most / least - 1)};
+          medians.size() < 2 || std::isnan(least)
+              ? "-"
+              : fmt::format("{:.1f}", 100 * (most / least - 1))};
+}
+
+/// The same for a part of the metronome.
+std::vector<std::string> Row(const SceneResult& scene, const std::string& who, double Beat::*part) {
+  std::vector<double> medians;
+  for (const auto& beats : scene.beats) medians.push_back(Median(Values(beats, part)));
+  return Row(scene.name, who, medians);
+}
+
+/// From the 10th to the 90th percentile [% of the median].
+double Spread(const RunResult& run, double Beat::*part) {
+  std::vector<double> all;
+  for (const SceneResult& scene : run.scenes) {
+    for (const auto& beats : scene.beats) {
+      const std::vector<double> values = Values(beats, part);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+  }
+  return 100 * (Quantile(all, 0.9) - Quantile(all, 0.1)) / Median(all);
 }
 
 }  // namespace
 
 std::string DescribeBeats(const RunResult& run) {
-  std::vector<double> all;
-  for (const SceneResult& scene : run.scenes) {
-    for (const auto& beats : scene.beats) all.insert(all.end(), beats.begin(), beats.end());
-  }
-  const double median = Median(all);
   return fmt::format(
-      "the same {:.3f} ms of work after each frame (metronome): 80 % of {} times within {} %, p99 "
-      "{:.2f} of the median",
-      median, all.size(), Percent((Quantile(all, 0.9) - Quantile(all, 0.1)) / median),
-      Quantile(all, 0.99) / median);
+      "of the same work after each frame, 80 % took times within {:.0f} % (arithmetic) and {:.0f} "
+      "% (memory)",
+      Spread(run, &Beat::arithmetic), Spread(run, &Beat::memory));
 }
 
 std::string NoiseText(const RunResult& run) {
@@ -57,17 +78,18 @@ std::string NoiseText(const RunResult& run) {
                    {"most", "ms"},  {"spread", "%"}};
   table.names = 2;
   for (const SceneResult& scene : run.scenes) {
-    std::vector<double> medians;
-    for (const auto& beats : scene.beats) medians.push_back(Median(beats));
-    table.rows.push_back(Row(scene.name, "metronome", medians));
+    table.rows.push_back(Row(scene, "metronome, arithmetic", &Beat::arithmetic));
+    table.rows.push_back(Row(scene, "metronome, memory", &Beat::memory));
     for (const SolverResult& solver : scene.solvers) {
-      medians = {TimedMedian(scene, solver.frames)};
-      for (const auto& frames : solver.repeated) medians.push_back(TimedMedian(scene, frames));
+      std::vector<double> medians = {Median(TimedFrames(scene, solver.frames))};
+      for (const auto& frames : solver.repeated) {
+        medians.push_back(Median(TimedFrames(scene, frames)));
+      }
       table.rows.push_back(Row(scene.name, solver.label, medians));
     }
   }
-  return fmt::format("Noise: {}{}\n\n{}", DescribeBeats(run),
-                     run.repeat > 1 ? "" : "\n(--repeat 5 or more shows how solvers differ)",
+  return fmt::format("Noise: {}\n{}\n{}", DescribeBeats(run),
+                     run.repeat > 1 ? "" : "(--repeat 5 or more shows how solvers differ)\n",
                      table.ToText());
 }
 

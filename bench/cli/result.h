@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/frame_facts.h"
+#include "cli/metronome.h"
 #include "cli/replay.h"
 #include "cli/run_context.h"
 #include "cli/setup.h"
@@ -83,8 +84,8 @@ struct SceneResult {
   double mass_ratio = kNotMeasured;  ///< Of the heaviest body and the lightest.
   int observed_every = 1;            ///< The residual was measured in every k-th frame.
   int warmup = 0;                    ///< The first frames, which do not count.
-  /// Of each repetition: what Metronome::Beat() took after each frame [ms].
-  std::vector<std::vector<double>> beats;
+  /// Of each repetition: the metronome after each frame.
+  std::vector<std::vector<Metronome::Beat>> beats;
   bool bullet_has_zones = true;  ///< Bullet's profiler calls its hooks, as far as is known.
   std::vector<Sample> samples;
   std::vector<SolverResult> solvers;

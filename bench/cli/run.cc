@@ -58,7 +58,7 @@ class SceneRun {
       lane->Step(observing);
       if (!disturbed || options_.trace_frame) lane->KeepTimeline(options_.trace_frame);
     }
-    result_.beats.front().push_back(metronome_->Beat());
+    result_.beats.front().push_back(metronome_->Strike());
   }
 
   bool AllFailed() const {
