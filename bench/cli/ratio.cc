@@ -19,6 +19,7 @@ constexpr double kRestart = 0.015;       ///< Between two starts of the same pro
 constexpr double kRestartTime = 0.0005;  ///< and so much [ms].
 /// Memory beats are noisy themselves, which makes slopes against them look flatter than they are.
 constexpr double kFlattened = 1.5;
+constexpr double kTiny = 1e-9;      ///< In place of 0, which has no logarithm.
 constexpr double kRounding = 1e-6;  ///< [m/s]
 
 using Picks = std::vector<int>;
@@ -71,7 +72,7 @@ Repetitions Scale(const Repetitions& series, const std::vector<double>& units,
   Repetitions scaled;
   for (size_t r = 0; r < series.size(); ++r) {
     std::vector<double>& values = scaled.emplace_back();
-    for (const int f : frames) values.push_back(series[r][f] / units[r]);
+    for (const int f : frames) values.push_back(std::max(series[r][f], kTiny) / units[r]);
   }
   return scaled;
 }
