@@ -32,7 +32,7 @@ void WriteJson(const std::string& path, const nlohmann::ordered_json& json) {
   if (!path.empty()) cli::WriteFile(path, json.dump(1) + "\n");
 }
 
-nlohmann::ordered_json ToJson(const VelocityDistance& distance) {
+nlohmann::ordered_json ToJson(const bench::VelocityDistance& distance) {
   return {{"rms_m_s", cli::Number(distance.rms)}, {"max_m_s", cli::Number(distance.max)}};
 }
 

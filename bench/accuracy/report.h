@@ -4,8 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "accuracy/velocity_norm.h"
 #include "cli/run_context.h"
+#include "measure/velocity_norm.h"
 
 namespace cairn::accuracy {
 
@@ -19,7 +19,7 @@ nlohmann::ordered_json JsonHead(const std::string& subcommand, const cli::RunCon
 void WriteJson(const std::string& path, const nlohmann::ordered_json& json);
 
 /// {"rms_m_s": ..., "max_m_s": ...}
-nlohmann::ordered_json ToJson(const VelocityDistance& distance);
+nlohmann::ordered_json ToJson(const bench::VelocityDistance& distance);
 
 /// Three digits: "0.00123", "-" for what was not measured.
 std::string Digits(double value);

@@ -81,8 +81,8 @@ class StateMeter {
   /// Fills in the errors of the last Sample().
   void Judge(const bench::Substep& substep, const btContactSolverInfo& info, StateResult* result) {
     const bench::ContactFrame frame = bullet_.Record(substep, info).frame;
-    const VelocityNorm norm(frame.bodies);
-    result->reference = Converge(frame, norm, 1e6 * options_.reference);
+    const bench::VelocityNorm norm(frame.bodies);
+    result->reference = bench::Converge(frame, norm, 1e6 * options_.reference);
     const std::vector<Velocity> truth = std::exchange(result->reference.velocities, {});
     const auto error = [&](std::span<const Velocity> v) { return norm.Between(v, truth); };
     for (size_t k = 0; k < kKinds.size(); ++k) result->cairn[k].error = error(changes_[k]);

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "accuracy/bullet_trial.h"
-#include "accuracy/converged.h"
 #include "accuracy/shadow.h"
-#include "accuracy/velocity_norm.h"
 #include "cli/scene_choice.h"
+#include "measure/converged.h"
+#include "measure/velocity_norm.h"
 
 namespace cairn::accuracy {
 
@@ -23,12 +23,13 @@ struct StatesOptions {
   int advance = 200;    ///< Iterations of Bullet that make the states.
   int rounds = 7;       ///< Of Bullet on each state that is sampled, to time it.
   int most = 5000;      ///< Iterations of Bullet that are followed.
-  int reference = static_cast<int>(kReferenceWork / 1e6);  ///< Millions of relaxations of rows.
+  int reference =
+      static_cast<int>(bench::kReferenceWork / 1e6);  ///< Millions of relaxations of rows.
 };
 
 /// What Cairn made of a state.
 struct CairnResult {
-  VelocityDistance error;
+  bench::VelocityDistance error;
   ShadowFrame frame;
   std::optional<int> worth;  ///< Iterations of Bullet until its rms is no larger, if it got there.
 };
@@ -36,12 +37,12 @@ struct CairnResult {
 /// One state and what everyone made of it.
 struct StateResult {
   int frame = 0, bodies = 0, rows = 0;
-  BulletTime bullet_time;         ///< Medians; the total is the budget.
-  VelocityDistance bullet_error;  ///< After StatesOptions::iterations.
-  VelocityDistance start_error;   ///< Of the warm start, before any iteration.
-  int followed = 0;               ///< Iterations of Bullet that were looked at,
-  VelocityDistance last_error;    ///< and its error after them.
-  Converged reference;            ///< Less its velocities.
+  BulletTime bullet_time;                ///< Medians; the total is the budget.
+  bench::VelocityDistance bullet_error;  ///< After StatesOptions::iterations.
+  bench::VelocityDistance start_error;   ///< Of the warm start, before any iteration.
+  int followed = 0;                      ///< Iterations of Bullet that were looked at,
+  bench::VelocityDistance last_error;    ///< and its error after them.
+  bench::Converged reference;            ///< Less its velocities.
   std::array<CairnResult, kKinds.size()> cairn;
 
   const CairnResult& Of(Kind kind) const { return cairn[static_cast<size_t>(kind)]; }

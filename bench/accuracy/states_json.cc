@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 Json ToJson(const CairnResult& cairn) {
   const ShadowFrame& frame = cairn.frame;
-  return {{"error", ToJson(cairn.error)},
+  return {{"error", accuracy::ToJson(cairn.error)},
           {"residual_max_m_s", Number(frame.residual_max)},
           {"cpu_ms", Number(frame.time.cpu)},
           {"wall_ms", Number(frame.time.wall)},
@@ -48,7 +48,7 @@ Json ToJson(const FrameStatistics& frames) {
 
 Json ToJson(const StateResult& state) {
   const BulletTime& time = state.bullet_time;
-  const Converged& reference = state.reference;
+  const bench::Converged& reference = state.reference;
   return {{"frame", state.frame},
           {"bodies", state.bodies},
           {"rows", state.rows},
@@ -58,16 +58,16 @@ Json ToJson(const StateResult& state) {
             {"sweeps", reference.sweeps},
             {"factorisations", reference.factorisations},
             {"converged", reference.reached},
-            {"spread", ToJson(reference.spread)}}},
+            {"spread", accuracy::ToJson(reference.spread)}}},
           {"bullet",
-           {{"error", ToJson(state.bullet_error)},
-            {"error_of_warm_start", ToJson(state.start_error)},
+           {{"error", accuracy::ToJson(state.bullet_error)},
+            {"error_of_warm_start", accuracy::ToJson(state.start_error)},
             {"set_up_ms", Number(time.set_up)},
             {"iterations_ms", Number(time.iterations)},
             {"split_ms", Number(time.split)},
             {"finish_ms", Number(time.finish)},
             {"followed_iterations", state.followed},
-            {"error_after_them", ToJson(state.last_error)}}},
+            {"error_after_them", accuracy::ToJson(state.last_error)}}},
           {"budget_ms", Number(time.total())},
           {"sweeps", ToJson(state.Of(Kind::kSweeps))},
           {"accelerated", ToJson(state.Of(Kind::kAccelerated))},
@@ -96,7 +96,7 @@ Json ToJson(std::span<const SceneStates> scenes, const StatesOptions& options) {
           {"iterations", options.iterations},
           {"advance", options.advance},
           {"rounds", options.rounds},
-          {"converged_to_m_s", kConvergedTo},
+          {"converged_to_m_s", bench::kConvergedTo},
           {"reference_work_millions", options.reference},
           {"scenes", list}};
 }

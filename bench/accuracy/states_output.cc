@@ -205,8 +205,9 @@ void PrintDoubts(const SceneStates& scene) {
         "- {}: {} of {} references did not converge to {:g} m/s, worst residual {} m/s; their "
         "spread "
         "is {:.2g} % of the smallest error at most{}\n",
-        scene.scene.info->name, not_reached, scene.states.size(), kConvergedTo, Digits(residual),
-        100 * share, share > kMostSpread ? ": too much to tell solvers apart" : "");
+        scene.scene.info->name, not_reached, scene.states.size(), bench::kConvergedTo,
+        Digits(residual), 100 * share,
+        share > kMostSpread ? ": too much to tell solvers apart" : "");
   }
   if (scene.empty > 0) {
     fmt::print("- {}: nothing touches in {} samples\n", scene.scene.info->name, scene.empty);
@@ -242,7 +243,7 @@ void PrintStates(std::span<const SceneStates> scenes, const StatesOptions& optio
       "reference max: worst residual of the\n  reference [m/s]; spread: rms to the reference from "
       "a "
       "cold start [m/s]; converged: states whose reference has a residual of at most {:g} m/s\n",
-      kConvergedTo);
+      bench::kConvergedTo);
   for (const SceneStates& scene : scenes) PrintDoubts(scene);
 }
 

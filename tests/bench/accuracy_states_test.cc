@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "accuracy/bullet_trial.h"
-#include "accuracy/converged.h"
 #include "accuracy/frame_statistics.h"
 #include "accuracy/shadow.h"
 #include "accuracy/state_run.h"
 #include "accuracy/states.h"
-#include "accuracy/velocity_norm.h"
 #include "cli/scene_choice.h"
+#include "measure/converged.h"
 #include "measure/reference.h"
+#include "measure/velocity_norm.h"
 
 namespace cairn::accuracy {
 namespace {
@@ -103,9 +103,9 @@ TEST_P(OneState, BulletConvergesToTheReference) {
   WithState([&](const bench::Substep& substep, const btContactSolverInfo& info,
                 const RecordedSubstep& recorded) {
     const bench::ContactFrame& frame = recorded.frame;
-    const VelocityNorm norm(frame.bodies);
-    const Converged reference = Converge(frame, norm);
-    EXPECT_EQ(reference.reached, reference.residual_max <= kConvergedTo);
+    const bench::VelocityNorm norm(frame.bodies);
+    const bench::Converged reference = bench::Converge(frame, norm);
+    EXPECT_EQ(reference.reached, reference.residual_max <= bench::kConvergedTo);
     EXPECT_LT(reference.residual_max, 1e-4);
     EXPECT_LT(reference.spread.rms, 1e-5);
 
@@ -124,8 +124,8 @@ TEST_P(OneState, BulletConvergesToTheReference) {
 TEST_P(OneState, TheAdapterConvergesToTheReferenceOfBulletsRows) {
   WithState([&](const bench::Substep& substep, const btContactSolverInfo& info,
                 const RecordedSubstep& recorded) {
-    const VelocityNorm norm(recorded.frame.bodies);
-    const Converged reference = Converge(recorded.frame, norm);
+    const bench::VelocityNorm norm(recorded.frame.bodies);
+    const bench::Converged reference = bench::Converge(recorded.frame, norm);
     bullet::ConstraintSolver adapter(bench::ReferenceSettings());
     substep.Restore();
     substep.SolveWith(&adapter, info, nullptr);
@@ -150,8 +150,9 @@ double ErrorOfFewSweeps(int frames_seen) {
       if (frame < kFrames - frames_seen) return;
       const RecordedSubstep recorded = BulletTrial().Record(*substep, info);
       EXPECT_EQ(shadow.Solve(*substep, info, kDay).sweeps, kSweeps);
-      const VelocityNorm norm(recorded.frame.bodies);
-      error = norm.Between(recorded.Changes(), Converge(recorded.frame, norm).velocities).rms;
+      const bench::VelocityNorm norm(recorded.frame.bodies);
+      error =
+          norm.Between(recorded.Changes(), bench::Converge(recorded.frame, norm).velocities).rms;
     });
   }
   return error;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "accuracy/grid.h"
-#include "accuracy/velocity_norm.h"
+#include "measure/velocity_norm.h"
 #include "scenes/facts.h"
 
 namespace cairn::accuracy {
@@ -34,7 +34,7 @@ TEST(VelocityNorm, WeighsMassesAndInertias) {
   wrong[0].linear.x() = 3;
   wrong[0].angular.z() = 1;
 
-  const VelocityDistance distance = VelocityNorm(bodies).Between(wrong, right);
+  const bench::VelocityDistance distance = bench::VelocityNorm(bodies).Between(wrong, right);
 
   EXPECT_DOUBLE_EQ(distance.rms, std::sqrt(24.0 / 8));
   EXPECT_DOUBLE_EQ(distance.max, 3);
@@ -49,7 +49,7 @@ TEST(VelocityNorm, LeavesOutWhatCannotMove) {
   wrong[0].angular.x() = 5;
   wrong[1].linear.y() = wrong[1].angular.x() = 5;
 
-  EXPECT_EQ(VelocityNorm(bodies).Between(wrong, right).rms, 0);
+  EXPECT_EQ(bench::VelocityNorm(bodies).Between(wrong, right).rms, 0);
 }
 
 TEST(VelocityNorm, CallsNanInfinitelyWrong) {
@@ -57,7 +57,7 @@ TEST(VelocityNorm, CallsNanInfinitelyWrong) {
   std::vector<Velocity> right(1), wrong(1);
   wrong[0].angular.x() = std::numeric_limits<double>::quiet_NaN();
 
-  EXPECT_EQ(VelocityNorm(bodies).Between(wrong, right).rms, kInfinity);
+  EXPECT_EQ(bench::VelocityNorm(bodies).Between(wrong, right).rms, kInfinity);
 }
 
 TEST(Grid, HasTheExtremesThatItIsFor) {

@@ -6,12 +6,12 @@
 
 #include "cairn/contact_problem.h"
 
-namespace cairn::accuracy {
+namespace cairn::bench {
 
 /// How far two sets of velocities of the same bodies are apart; infinity if one is not a number.
 struct VelocityDistance {
   double rms = 0;  ///< sqrt(dv' M dv / mass of all bodies): all momenta count [m/s].
-  double max = 0;  ///< Of a centre of mass, bench::VelocityError() [m/s].
+  double max = 0;  ///< Of a centre of mass, VelocityError() [m/s].
 };
 
 /// Measures velocities in the energy norm of the bodies of a problem.
@@ -32,4 +32,4 @@ class VelocityNorm {
   double total_mass_ = 0;
 };
 
-}  // namespace cairn::accuracy
+}  // namespace cairn::bench

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "accuracy/velocity_norm.h"
+#include "measure/velocity_norm.h"
 #include "rigid/contact_frame.h"
 
-namespace cairn::accuracy {
+namespace cairn::bench {
 
 /// A solution that errors are measured against, and how good it is itself.
 struct Converged {
@@ -29,7 +29,7 @@ inline constexpr double kReferenceWork = 2e8;
 /// Sweeps with subspace steps in double precision until kConvergedTo, or as far as they go.
 /// @param work  relaxations of rows at most, from either start
 /// @throws std::runtime_error if the problem is refused
-Converged Converge(const bench::ContactFrame& frame, const VelocityNorm& norm,
+Converged Converge(const ContactFrame& frame, const VelocityNorm& norm,
                    double work = kReferenceWork);
 
-}  // namespace cairn::accuracy
+}  // namespace cairn::bench

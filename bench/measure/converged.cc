@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/converged.h"
+#include "measure/converged.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "cairn/solver.h"
 #include "measure/reference.h"
 
-namespace cairn::accuracy {
+namespace cairn::bench {
 namespace {
 
 /// One after the other: large terms bring down what is far off, small ones the rest.
@@ -21,7 +21,7 @@ constexpr int kStepsInThem = 10;
 constexpr double kProgress = 0.9;
 
 Settings SettingsWith(double proximal, int sweeps) {
-  Settings settings = bench::ReferenceSettings();
+  Settings settings = ReferenceSettings();
   settings.order = SweepOrder::kForward;   // in double precision
   settings.tolerance = kConvergedTo / 10;  // beneath what Measure() has to find
   settings.max_sweeps = sweeps;
@@ -34,7 +34,7 @@ Settings SettingsWith(double proximal, int sweeps) {
   return settings;
 }
 
-Converged SolveFrom(std::vector<double> impulses, const bench::ContactFrame& frame, double work) {
+Converged SolveFrom(std::vector<double> impulses, const ContactFrame& frame, double work) {
   Converged result;
   result.velocities.resize(frame.bodies.size());
   result.residual_max = kInfinity;
@@ -63,11 +63,11 @@ Converged SolveFrom(std::vector<double> impulses, const bench::ContactFrame& fra
 
 }  // namespace
 
-Converged Converge(const bench::ContactFrame& frame, const VelocityNorm& norm, double work) {
+Converged Converge(const ContactFrame& frame, const VelocityNorm& norm, double work) {
   Converged result = SolveFrom(frame.impulses, frame, work);
   const Converged other = SolveFrom(std::vector<double>(frame.rows.size()), frame, work);
   result.spread = norm.Between(result.velocities, other.velocities);
   return result;
 }
 
-}  // namespace cairn::accuracy
+}  // namespace cairn::bench

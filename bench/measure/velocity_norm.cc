@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/velocity_norm.h"
+#include "measure/velocity_norm.h"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "measure/reference.h"
 
-namespace cairn::accuracy {
+namespace cairn::bench {
 namespace {
 
 double Inverse(double value) { return value > 0 ? 1 / value : 0; }
@@ -41,8 +41,7 @@ VelocityDistance VelocityNorm::Between(std::span<const Velocity> a,
     energy += v.dot(masses_[i].linear.cwiseProduct(v)) + w.dot(masses_[i].angular * w);
   }
   if (!std::isfinite(energy)) energy = std::numeric_limits<double>::infinity();
-  return {.rms = total_mass_ > 0 ? std::sqrt(energy / total_mass_) : 0,
-          .max = bench::VelocityError(a, b)};
+  return {.rms = total_mass_ > 0 ? std::sqrt(energy / total_mass_) : 0, .max = VelocityError(a, b)};
 }
 
-}  // namespace cairn::accuracy
+}  // namespace cairn::bench
