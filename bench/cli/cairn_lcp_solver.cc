@@ -19,7 +19,8 @@ Budget BudgetOf(const LcpOptions& options) {
   return options.phases ? Budget::Time(std::chrono::hours(10000)) : Budget::Unlimited();
 }
 
-/// Fit for a narrow column.
+}  // namespace
+
 std::string Name(StopReason reason) {
   switch (reason) {
     case StopReason::kNotStarted:
@@ -43,19 +44,21 @@ std::string Name(StopReason reason) {
   return "unknown";
 }
 
-}  // namespace
+Settings SettingsOf(Method method, const LcpOptions& options) {
+  return {.method = method,
+          .order = options.order,
+          .k_gs = options.k_gs,
+          .k_sm = options.k_sm,
+          .max_sweeps = options.max_sweeps.value_or(DefaultSweeps(method)),
+          .tolerance = options.tolerance,
+          .budget = BudgetOf(options),
+          .threads = options.threads,
+          .omega = options.omega,
+          .active_tolerance = options.active_tolerance};
+}
 
 CairnLcpSolver::CairnLcpSolver(Method method, const LcpOptions& options)
-    : settings_{.method = method,
-                .order = options.order,
-                .k_gs = options.k_gs,
-                .k_sm = options.k_sm,
-                .max_sweeps = options.max_sweeps.value_or(DefaultSweeps(method)),
-                .tolerance = options.tolerance,
-                .budget = BudgetOf(options),
-                .threads = options.threads,
-                .omega = options.omega,
-                .active_tolerance = options.active_tolerance} {}
+    : settings_(SettingsOf(method, options)) {}
 
 LcpOutcome CairnLcpSolver::Solve(const BoxedLcp& problem, const Eigen::VectorXd& start,
                                  const Observer& observer) {

@@ -9,6 +9,12 @@ namespace cairn::cli {
 /// of their own: they end when they converge or when rounding stops them.
 inline constexpr int kDefaultMaxSweeps = 50000;
 
+/// Why a solve ended, fit for a narrow column.
+std::string Name(StopReason reason);
+
+/// What the options mean to a method.
+Settings SettingsOf(Method method, const LcpOptions& options);
+
 /// cairn::Solver with one of its methods.
 class CairnLcpSolver : public LcpSolver {
  public:

@@ -5,8 +5,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "cli/lcp_solver.h"
 
@@ -20,8 +18,5 @@ struct LcpSolverEntry {
 };
 
 std::span<const LcpSolverEntry> LcpSolvers();
-
-/// Entries of a list of names with commas. @throws Failure (kUsage)
-std::vector<const LcpSolverEntry*> ParseLcpSolvers(std::string_view list);
 
 }  // namespace cairn::cli

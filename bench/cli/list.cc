@@ -7,6 +7,7 @@
 
 #include "cli/lcp_solvers.h"
 #include "cli/problem_choice.h"
+#include "cli/row_solvers.h"
 #include "cli/scene_choice.h"
 #include "cli/solver_registry.h"
 
@@ -61,17 +62,20 @@ void ListProblems(ListForm form) {
 
 void ListSolvers(ListForm form) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  const auto add = [&](const auto& solvers, std::string_view command) {
+  const auto add = [&](const auto& solvers, std::string_view command, std::string_view takes) {
     for (const auto& solver : solvers) {
       if (form == ListForm::kText) {
-        fmt::print("{:<21} {:<6} {}\n", solver.name, command, solver.description);
+        fmt::print("{:<21} {:<6} {:<9} {}\n", solver.name, command, takes, solver.description);
       }
-      json.push_back(
-          {{"name", solver.name}, {"command", command}, {"description", solver.description}});
+      json.push_back({{"name", solver.name},
+                      {"command", command},
+                      {"takes", takes},
+                      {"description", solver.description}});
     }
   };
-  add(Solvers(), "run");
-  add(LcpSolvers(), "solve");
+  add(Solvers(), "run", "worlds");
+  add(LcpSolvers(), "solve", "matrices");
+  add(RowSolvers(), "solve", "frames");
   if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
 }
 

@@ -47,6 +47,18 @@ Setting ParseSetting(const std::string& word) {
   return {word.substr(0, equals), word.substr(equals + 1)};
 }
 
+constexpr const char* kRecordingEnding = ".cairn";
+
+/// In the order of their names.
+std::vector<fs::path> RecordingsIn(const fs::path& folder) {
+  std::vector<fs::path> recordings;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == kRecordingEnding) recordings.push_back(entry.path());
+  }
+  std::sort(recordings.begin(), recordings.end());
+  return recordings;
+}
+
 std::vector<std::string> ParameterNames(const Generator& generator) {
   std::vector<std::string> names;
   for (const Parameter& parameter : generator.parameters) names.push_back(parameter.name);
@@ -108,13 +120,21 @@ class Chooser {
   }
 
   void AddPath(const fs::path& path) {
-    if (!fs::is_directory(path))
+    if (!fs::is_directory(path)) {
+      if (IsRecording(path.string()) || path.extension() == kRecordingEnding) {
+        return AddRecording(path);
+      }
       return AddFolder(path.parent_path().empty() ? "." : path.parent_path());
+    }
     if (problems::IsProblemFolder(path)) return AddFolder(path);
+    const std::vector<fs::path> recordings = RecordingsIn(path);
+    for (const fs::path& recording : recordings) AddRecording(recording);
     const std::vector<fs::path> folders = problems::ProblemFoldersIn(path);
-    if (folders.empty()) {
-      throw Failure(kBadInput, fmt::format("'{}': holds neither meta.json nor folders that do",
-                                           path.string()));
+    if (folders.empty() && recordings.empty()) {
+      throw Failure(kBadInput,
+                    fmt::format("'{}': holds neither meta.json nor folders that do, nor recordings "
+                                "(*{})",
+                                path.string(), kRecordingEnding));
     }
     for (const fs::path& folder : folders) {
       if (problems::ReadKind(folder) == "friction") {
@@ -124,6 +144,11 @@ class Chooser {
         AddFolder(folder);
       }
     }
+  }
+
+  void AddRecording(const fs::path& path) {
+    if (!seen_.insert(fs::weakly_canonical(path).string()).second) return;
+    choices_.frames.push_back(LoadRowProblem(path.string()));
   }
 
   void AddFolder(const fs::path& folder) {
@@ -143,10 +168,11 @@ class Chooser {
   /// What was typed must mean something to at least one of the problems.
   void RefuseUnused() const {
     if (generators_.empty() && !words_.size.empty()) {
-      throw Failure(kUsage, "--size is for generators: folders have the size they have");
+      throw Failure(kUsage,
+                    "--size is for generators: folders and recordings have the size they have");
     }
     if (generators_.empty() && !settings_.empty()) {
-      throw Failure(kUsage, "--set is for generators: folders have no parameters");
+      throw Failure(kUsage, "--set is for generators: folders and recordings have no parameters");
     }
     std::vector<std::string> known;
     for (const Generator* generator : generators_) {

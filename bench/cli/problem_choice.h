@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/row_problem.h"
 #include "problems/problem.h"
 
 namespace cairn::cli {
@@ -32,17 +33,18 @@ struct SkippedFolder {
 
 /// What was typed about problems.
 struct ProblemWords {
-  std::vector<std::string> names;     ///< Generators, folders, folders of folders.
+  std::vector<std::string> names;     ///< Generators, folders of problems, recordings.
   std::string size;                   ///< --size; empty: the default of each generator.
   std::vector<std::string> settings;  ///< --set, each "name=value".
 };
 
 struct ProblemChoices {
   std::vector<ProblemChoice> problems;
+  std::vector<std::shared_ptr<const RowProblem>> frames;  ///< Recordings.
   std::vector<SkippedFolder> skipped;
 };
 
-/// Reads all folders, so that a broken one is found before anything is solved.
+/// Reads all folders and recordings, so that a broken one is found before anything is solved.
 /// @throws Failure: kUsage for an unknown name, size or parameter, kBadInput for a folder that
 /// cannot be read or whose numbers Validate() refuses.
 ProblemChoices ParseProblems(const ProblemWords& words);

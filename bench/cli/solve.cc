@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/pair_run.h"
+#include "cli/row_run.h"
 
 namespace cairn::cli {
 namespace {
@@ -36,11 +37,10 @@ class Run {
       : options_(options), clock_(clock), progress_(options.progress) {}
 
   ProblemResult SolveWithAll(const ProblemChoice& choice) {
-    ++number_;
     const auto source = choice.make();
     const Problem& problem = source->current();
     ProblemResult result = Describe(choice, *source);
-    where_ = fmt::format("{} ({} of {})", result.name, number_, options_.problems.size());
+    Enter(result.name);
     Yardstick yardstick;
     if (!options_.errors.empty() && result.steps == 1) {
       progress_.Show(fmt::format("{}: reference", where_));
@@ -55,7 +55,31 @@ class Run {
     return result;
   }
 
+  ProblemResult SolveFrame(const RowProblem& recorded) {
+    Enter(recorded.name);
+    std::optional<RowProblem> from_zero;
+    if (options_.start == StartRule::kZero) from_zero = FromZero(recorded);
+    const RowProblem& problem = from_zero ? *from_zero : recorded;
+    progress_.Show(fmt::format("{}: reference", where_));
+    using Reference = RowYardstick::Reference;
+    const RowYardstick yardstick(problem,
+                                 options_.errors.empty() ? Reference::kNone : Reference::kFind);
+    ProblemResult result = DescribeFrame(problem, yardstick);
+    for (const RowSolverEntry* entry : options_.row_solvers) {
+      RowRun run(options_, *entry, clock_, [this](const std::string& what) {
+        progress_.Show(fmt::format("{}: {}", where_, what));
+      });
+      result.solvers.push_back(run.Solve(problem, yardstick));
+    }
+    return result;
+  }
+
  private:
+  void Enter(const std::string& name) {
+    const size_t all = options_.problems.size() + options_.frames.size();
+    where_ = fmt::format("{} ({} of {})", name, ++number_, all);
+  }
+
   LcpSolverResult SolveWith(const LcpSolverEntry& entry, const ProblemChoice& choice,
                             problems::Source* first, const Yardstick& yardstick) {
     PairRun run(options_, entry, clock_);
@@ -95,19 +119,21 @@ SolveResult Solve(const SolveOptions& options, const std::string& command) {
   result.clock = options.solver.threads > 1 ? SolverClock::kWall : SolverClock::kThreadCpu;
   result.errors = options.errors;
   result.skipped = options.skipped;
-  for (const LcpSolverEntry* entry : options.solvers) result.solvers.push_back(entry->name);
+  result.row_options = options.row_solver;
+  result.solvers = options.solver_names;
 
   Run run(options, result.clock);
   std::set<std::string> names;
-  for (const ProblemChoice& choice : options.problems) {
-    ProblemResult problem = run.SolveWithAll(choice);
+  const auto add = [&](ProblemResult problem) {
     const std::string name = problem.name;
     // Names become folders of --solution, and rows that must be told apart.
     for (int copy = 2; !names.insert(problem.name).second; ++copy) {
       problem.name = fmt::format("{}-{}", name, copy);
     }
     result.problems.push_back(std::move(problem));
-  }
+  };
+  for (const ProblemChoice& choice : options.problems) add(run.SolveWithAll(choice));
+  for (const auto& frame : options.frames) add(run.SolveFrame(*frame));
   return result;
 }
 
@@ -118,6 +144,16 @@ bool SolveResult::any_failed() const {
     return std::any_of(problem.solvers.begin(), problem.solvers.end(),
                        [](const LcpSolverResult& solver) { return solver.failure.has_value(); });
   });
+}
+
+bool SolveResult::any_frame() const {
+  return std::any_of(problems.begin(), problems.end(),
+                     [](const ProblemResult& problem) { return problem.rows.has_value(); });
+}
+
+bool SolveResult::any_matrix() const {
+  return std::any_of(problems.begin(), problems.end(),
+                     [](const ProblemResult& problem) { return !problem.rows.has_value(); });
 }
 
 bool SolveResult::any_march() const {

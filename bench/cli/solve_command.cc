@@ -24,6 +24,7 @@
 #include "cli/solve_json.h"
 #include "cli/solve_plot.h"
 #include "cli/solve_tables.h"
+#include "cli/solver_choice.h"
 
 namespace cairn::cli {
 namespace {
@@ -31,9 +32,8 @@ namespace {
 /// What was typed behind the options of `cairn solve`.
 struct SolveWords {
   ProblemWords problems;
-  std::string solvers = "pgs,pgs-sm,ipm";
-  std::string errors = "1e-1,1e-2,1e-6", start = "warm", order = "automatic";
-  std::string tolerance = "1e-9", max_sweeps, budget, threads = "1", repeat = "1";
+  std::string solvers, errors, start = "warm", order = "automatic";
+  std::string tolerance, max_sweeps, budget, threads = "1", repeat = "1";
   std::string k_gs, k_sm, tol, omega;
   std::string json, csv, markdown, history, plot, solution, exported;
   bool phases = false;
@@ -42,7 +42,8 @@ struct SolveWords {
 
 constexpr const char* kSolveNotes =
     R"(A problem is the name of a generator (cairn list problems), a folder with meta.json, matrix.mtx
-and q.mtx (Matrix Market text), or a folder of such folders, which means all of them.
+and q.mtx (Matrix Market text), or a folder of such folders, which means all of them. It may also be
+a recorded frame of a game, or a folder of these: *.cairn, from 'cairn record' or CAIRN_RECORD.
 
 Time is CPU time of the solver alone, wall-clock time with --threads above 1. Each problem is solved
 twice: watched, for the error over time (the time of watching is left out), and then with nobody
@@ -53,7 +54,11 @@ and of x against the best one found here (pgs-sm to 1e-12) where nothing is know
 such as an option that is priced from expiry back to today, has answers instead. --errors none
 measures no errors: for large problems without a known solution.
 
-Exit codes: 0 fine, 1 a solver did not reach the tolerance or missed an answer, 2 usage, 3 a file
+On a recorded frame, each solver goes from the recorded start as far as --budget (default 20ms) or
+--max-sweeps lets it, and as far as ever smaller shares of that for the curve. Errors are of
+velocities against a converged reference, and natural residuals, both in m/s.
+
+Exit codes: 0 fine, 1 a solver refused, missed the tolerance or an answer, 2 usage, 3 a file
 cannot be used.)";
 
 constexpr std::pair<StartRule, const char*> kStarts[] = {
@@ -85,6 +90,11 @@ int ParseInt(std::string_view option, std::string_view text, long long least, lo
   return static_cast<int>(ParseCount(option, text, least, most, meaning));
 }
 
+constexpr const char* kErrorsOfMatrices = "1e-1,1e-2,1e-6";
+constexpr const char* kErrorsOfFrames = "1e-1,1e-2,1e-3";
+/// For a frame, where neither budget nor sweeps are given.
+constexpr auto kBudgetOfFrames = std::chrono::milliseconds(20);
+
 /// Falling, each once; "none" for none.
 std::vector<double> ParseErrors(const std::string& text) {
   std::vector<double> errors;
@@ -102,8 +112,10 @@ std::vector<double> ParseErrors(const std::string& text) {
 LcpOptions CheckSolver(const SolveWords& words) {
   constexpr int kMost = std::numeric_limits<int>::max();
   LcpOptions options;
-  options.tolerance = ParseNumber("--tolerance", words.tolerance, 1e-16, 1,
-                                  "relative natural residual at which a solver stops");
+  if (!words.tolerance.empty()) {
+    options.tolerance = ParseNumber("--tolerance", words.tolerance, 1e-16, 1,
+                                    "natural residual at which a solver stops");
+  }
   if (!words.max_sweeps.empty()) {
     options.max_sweeps = ParseInt("--max-sweeps", words.max_sweeps, 0, kMost, "sweeps at most");
   }
@@ -129,6 +141,26 @@ LcpOptions CheckSolver(const SolveWords& words) {
   return options;
 }
 
+/// The same for recorded frames.
+LcpOptions CheckRowSolver(const SolveWords& words) {
+  LcpOptions options = CheckSolver(words);
+  if (words.tolerance.empty()) options.tolerance = 0;
+  if (!options.max_sweeps && !options.budget) options.budget = kBudgetOfFrames;
+  if (options.max_sweeps == 0) {
+    throw Failure(kUsage, "--max-sweeps 0: solvers of recorded frames make one sweep at least");
+  }
+  return options;
+}
+
+void CheckFrames(const SolveOptions& options, const SolveWords& words) {
+  if (options.start == StartRule::kNested) {
+    throw Failure(kUsage, "--start nested: recorded frames have no coarser grid to begin with");
+  }
+  if (options.problems.empty() && !words.exported.empty()) {
+    throw Failure(kUsage, "--export is for problems in matrix form: recordings are files already");
+  }
+}
+
 void RefuseWithoutGrids(const std::vector<ProblemChoice>& choices) {
   for (const ProblemChoice& choice : choices) {
     const auto source = choice.make();
@@ -141,10 +173,25 @@ void RefuseWithoutGrids(const std::vector<ProblemChoice>& choices) {
 
 SolveOptions Check(const SolveWords& words) {
   SolveOptions options;
-  options.solvers = ParseLcpSolvers(words.solvers);
+  ProblemChoices choices = ParseProblems(words.problems);
+  options.problems = std::move(choices.problems);
+  options.frames = std::move(choices.frames);
+  options.skipped = std::move(choices.skipped);
+  const ProblemKinds kinds{.matrices = !options.problems.empty(),
+                           .frames = !options.frames.empty()};
+  if (!kinds.matrices && !kinds.frames) {
+    throw Failure(kBadInput, fmt::format("nothing to solve: all {} problems are of kind friction",
+                                         options.skipped.size()));
+  }
+  SolverChoices solvers = ChooseSolvers(words.solvers, kinds);
+  options.solvers = std::move(solvers.of_matrices);
+  options.row_solvers = std::move(solvers.of_frames);
+  options.solver_names = std::move(solvers.names);
   options.solver = CheckSolver(words);
   options.solver.phases = words.phases;
-  options.errors = ParseErrors(words.errors);
+  options.errors = ParseErrors(!words.errors.empty() ? words.errors
+                               : kinds.matrices      ? kErrorsOfMatrices
+                                                     : kErrorsOfFrames);
   options.start = ParseName("start", words.start, kStarts);
   options.repeat = ParseInt("--repeat", words.repeat, 1, 10'000, "solves whose median time counts");
   options.progress = ParseProgress(words.output);
@@ -154,12 +201,9 @@ SolveOptions Check(const SolveWords& words) {
   if (options.errors.empty() && !words.plot.empty()) {
     throw Failure(kUsage, "--plot needs errors: leave --errors none away");
   }
-  ProblemChoices choices = ParseProblems(words.problems);
-  options.problems = std::move(choices.problems);
-  options.skipped = std::move(choices.skipped);
-  if (options.problems.empty()) {
-    throw Failure(kBadInput, fmt::format("nothing to solve: all {} problems are of kind friction",
-                                         options.skipped.size()));
+  if (kinds.frames) {
+    options.row_solver = CheckRowSolver(words);
+    CheckFrames(options, words);
   }
   if (options.start == StartRule::kNested) RefuseWithoutGrids(options.problems);
   return options;
@@ -192,16 +236,21 @@ int DoSolve(const SolveWords& words, const std::string& command) {
 }
 
 void AddSolverOptions(CLI::App* solve, SolveWords* words) {
-  solve->add_option("--solver", words->solvers, "Solvers, with commas between them")
+  solve
+      ->add_option("--solver", words->solvers,
+                   "Solvers, with commas between them; default pgs,pgs-sm,ipm, of recorded frames "
+                   "pgs,pgs-sm,bullet-si,bullet-nncg")
       ->type_name("A,B,...")
-      ->take_last()
-      ->capture_default_str();
+      ->take_last();
   const auto add = [solve](const char* name, std::string* word, const char* help,
                            const char* type) { AddText(solve, name, word, help, type); };
   add("--tolerance", &words->tolerance,
-      "Relative natural residual at which a solver stops; default 1e-9", "R");
+      "Natural residual at which a solver stops: relative, default 1e-9; of recorded frames in "
+      "m/s, default none",
+      "R");
   add("--max-sweeps", &words->max_sweeps, "Sweeps at most; default 50000, pgs-sm: none", "N");
-  add("--budget", &words->budget, "Time for a problem, such as 2ms, 5s; default: none", "TIME");
+  add("--budget", &words->budget,
+      "Time for a problem, such as 2ms, 5s; default: none, of recorded frames 20ms", "TIME");
   add("--start", &words->start,
       "zero, warm (what the problem brings; default) or nested (coarser grids first)", "HOW");
   add("--order", &words->order,
@@ -222,9 +271,10 @@ const char* Name(SweepOrder order) { return NameOf(order, kOrders); }
 Command AddSolveCommand(CLI::App* app) {
   const auto words = std::make_shared<SolveWords>();
   CLI::App* const solve = app->add_subcommand(
-      "solve", "Solve problems in matrix form and measure time, work and error");
+      "solve",
+      "Solve problems in matrix form, and recorded frames, and measure time, work and error");
   solve->footer(kSolveNotes);
-  solve->add_option("problem", words->problems.names, "Generators, and folders of problems")
+  solve->add_option("problem", words->problems.names, "Generators, folders of problems, recordings")
       ->required()
       ->type_name("FILE|GENERATOR");
   const auto add = [solve](const char* name, std::string* word, const char* help,
@@ -237,7 +287,9 @@ Command AddSolveCommand(CLI::App* app) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   AddSolverOptions(solve, words.get());
   add("--errors", &words->errors,
-      "Errors until which time is taken; default 1e-1,1e-2,1e-6; none to measure none", "A,B,...");
+      "Errors until which time is taken; default 1e-1,1e-2,1e-6, of recorded frames "
+      "1e-1,1e-2,1e-3; none to measure none",
+      "A,B,...");
   add("--repeat", &words->repeat, "Solves whose median time counts; default 1", "N");
   solve->add_flag("--phases", words->phases,
                   "Show where the time of Cairn's solvers goes, wall clock");

@@ -26,11 +26,12 @@ std::string LevelCells(const LevelReached& level) {
 std::string Line(const ProblemResult& problem, const LcpSolverResult& solver,
                  const std::vector<double>& errors) {
   std::string line = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", problem.name, problem.size,
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", problem.name, problem.size,
       problem.nonzeros, problem.free_rows, problem.steps, solver.label, solver.failure ? 0 : 1,
       Cell(solver.time), Cell(solver.nested_time), solver.sweeps, solver.factorisations,
-      solver.analyses, solver.factor_nonzeros, Cell(solver.residual.relative), Cell(solver.error),
-      Cell(solver.energy_error), problem.truth_name);
+      solver.analyses, solver.factor_nonzeros,
+      Cell(problem.rows ? solver.residual.max : solver.residual.relative), Cell(solver.error),
+      Cell(solver.energy_error), problem.truth_name, problem.rows ? "m/s" : "relative");
   for (size_t i = 0; i < errors.size(); ++i) {
     line += i < solver.levels.size() ? LevelCells(solver.levels[i]) : ",,,";
   }
@@ -42,7 +43,7 @@ std::string Line(const ProblemResult& problem, const LcpSolverResult& solver,
 std::string ToCsv(const SolveResult& result) {
   std::string text =
       "problem,n,nonzeros,free_rows,steps,solver,solved,time_ms,nested_ms,sweeps,factorisations,"
-      "analyses,factor_nonzeros,residual,error,error_energy,error_of";
+      "analyses,factor_nonzeros,residual,error,error_energy,error_of,unit";
   for (const double error : result.errors) {
     text += fmt::format(",to_{0:g}_ms,to_{0:g}_sweeps,to_{0:g}_factorisations", error);
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "cli/solve_json.h"
 
+#include <chrono>
+#include <optional>
+
 #include "cli/duration.h"
 #include "cli/json_number.h"
 #include "cli/phase_names.h"
@@ -14,20 +17,26 @@ Json Settings(const SolveResult& result) {
   const LcpOptions& options = result.options;
   Json errors = Json::array();
   for (const double error : result.errors) errors.push_back(error);
-  return {{"solvers", result.solvers},
-          {"start", Name(result.start)},
-          {"tolerance", options.tolerance},
-          {"max_sweeps", Maybe(options.max_sweeps)},
-          {"budget_ms", options.budget ? Json(Milliseconds(*options.budget)) : Json(nullptr)},
-          {"order", Name(options.order)},
-          {"threads", options.threads},
-          {"k_gs", options.k_gs},
-          {"k_sm", options.k_sm},
-          {"active_tolerance", options.active_tolerance},
-          {"omega", options.omega},
-          {"repeat", result.repeat},
-          {"clock", result.clock == SolverClock::kThreadCpu ? "thread cpu" : "wall"},
-          {"errors", errors}};
+  Json settings = {
+      {"solvers", result.solvers},
+      {"start", Name(result.start)},
+      {"tolerance", options.tolerance},
+      {"max_sweeps", Maybe(options.max_sweeps)},
+      {"budget_ms", options.budget ? Json(Milliseconds(*options.budget)) : Json(nullptr)},
+      {"order", Name(options.order)},
+      {"threads", options.threads},
+      {"k_gs", options.k_gs},
+      {"k_sm", options.k_sm},
+      {"active_tolerance", options.active_tolerance},
+      {"omega", options.omega},
+      {"repeat", result.repeat},
+      {"clock", result.clock == SolverClock::kThreadCpu ? "thread cpu" : "wall"},
+      {"errors", errors}};
+  if (!result.any_frame()) return settings;
+  const std::optional<std::chrono::nanoseconds> budget = result.row_options.budget;
+  settings["frames"] = {{"tolerance_m_s", result.row_options.tolerance},
+                        {"budget_ms", budget ? Json(Milliseconds(*budget)) : Json(nullptr)}};
+  return settings;
 }
 
 Json ToJson(const LcpResidual& residual) {
@@ -46,6 +55,24 @@ Json ToJson(const LevelReached& level) {
           {"time_ms", first ? Number(first->time) : Json(nullptr)},
           {"sweeps", first ? Json(first->sweeps) : Json(nullptr)},
           {"factorisations", first ? Json(first->factorisations) : Json(nullptr)}};
+}
+
+Json ToJson(const HistoryPoint& point) {
+  return {{"time_ms", Number(point.time)},
+          {"sweeps", point.sweeps},
+          {"factorisations", point.factorisations},
+          {"error", Number(point.error)},
+          {"error_energy", Number(point.energy_error)},
+          {"residual", Number(point.residual)}};
+}
+
+Json ToJson(const RowFacts& facts) {
+  return {{"frame", facts.frame},
+          {"bodies", facts.bodies},
+          {"joint_rows", facts.joint_rows},
+          {"contact_points", facts.points},
+          {"lifted_sweep_limit", facts.limited_sweeps},
+          {"reference_spread", Number(facts.spread)}};
 }
 
 Json ToJson(const NestedGrid& grid) {
@@ -99,6 +126,9 @@ Json ToJson(const LcpSolverResult& solver) {
           {"error", Number(solver.error)},
           {"error_energy", Number(solver.energy_error)},
           {"reached", List(solver.levels)},
+          {"residual_reached", List(solver.residual_levels)},
+          {"prepare_ms", Number(solver.prepare_time)},
+          {"curve", solver.residual_levels.empty() ? Json::array() : List(solver.history)},
           {"phases_ms", ToJson(solver.phases)},
           {"nested_ms", Number(solver.nested_time)},
           {"nested", List(solver.nested)},
@@ -108,11 +138,13 @@ Json ToJson(const LcpSolverResult& solver) {
 Json ToJson(const ProblemResult& problem) {
   Json parameters = Json::object();
   for (const auto& [name, value] : problem.parameters) parameters[name] = value;
-  constexpr const char* kTruths[] = {"none", "solution", "w", "best found"};
+  constexpr const char* kTruths[] = {"none", "solution", "w", "best found", "converged reference"};
   return {{"problem", problem.name},
           {"source", problem.source},
           {"size", problem.generator_size == 0 ? Json(nullptr) : Json(problem.generator_size)},
           {"parameters", parameters},
+          {"unit", problem.rows ? "m/s" : "relative"},
+          {"recorded", problem.rows ? ToJson(*problem.rows) : Json(nullptr)},
           {"n", problem.size},
           {"nonzeros", problem.nonzeros},
           {"free_rows", problem.free_rows},

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "cli/lcp_solvers.h"
 #include "cli/problem_choice.h"
 #include "cli/progress.h"
+#include "cli/row_problem.h"
+#include "cli/row_solvers.h"
 
 namespace cairn::cli {
 
@@ -19,9 +23,13 @@ enum class StartRule {
 /// What `cairn solve` was asked for, checked.
 struct SolveOptions {
   std::vector<ProblemChoice> problems;
+  std::vector<std::shared_ptr<const RowProblem>> frames;  ///< Recordings.
   std::vector<SkippedFolder> skipped;
-  std::vector<const LcpSolverEntry*> solvers;
+  std::vector<const LcpSolverEntry*> solvers;      ///< Of the problems.
+  std::vector<const RowSolverEntry*> row_solvers;  ///< Of the frames.
+  std::vector<std::string> solver_names;           ///< Of both, each once, as they were typed.
   LcpOptions solver;
+  LcpOptions row_solver;  ///< With a budget or sweeps at most; the tolerance is in [m/s], 0: none.
   /// Errors at which the time is taken, falling; empty: errors are not measured at all.
   std::vector<double> errors;
   StartRule start = StartRule::kWarm;

@@ -22,18 +22,27 @@ constexpr std::string_view kStyle = R"css(
 svg svg{width:470px;height:270px}svg svg.k{width:34px;height:12px}svg>.paper{fill:var(--paper)}
 )css";
 
-LinePlot PlotOf(const ProblemResult& problem) {
+/// The same of a solver in every panel.
+int StyleOf(const SolveResult& result, const std::string& label) {
+  const auto found = std::find(result.solvers.begin(), result.solvers.end(), label);
+  return static_cast<int>(found - result.solvers.begin());
+}
+
+LinePlot PlotOf(const SolveResult& result, const ProblemResult& problem) {
   const bool errors = problem.truth != Yardstick::Truth::kNone;
   LinePlot plot;
   plot.title = problem.name;
   if (errors) plot.title += ", error of " + problem.truth_name;
   plot.unit = errors ? "error" : "residual";
+  if (problem.rows) {
+    plot.title = problem.name + (errors ? ", velocity error" : ", residual");
+    plot.unit = "m/s";
+  }
   plot.x_scale = LinePlot::Scale::kLogarithmic;
   plot.x_label = "time [ms]";
   plot.most_decades = kDecades;
-  for (size_t s = 0; s < problem.solvers.size(); ++s) {
-    const LcpSolverResult& solver = problem.solvers[s];
-    Series series{.label = solver.label, .style = static_cast<int>(s), .x = {}, .y = {}};
+  for (const LcpSolverResult& solver : problem.solvers) {
+    Series series{.label = solver.label, .style = StyleOf(result, solver.label), .x = {}, .y = {}};
     for (const HistoryPoint& point : solver.history) {
       series.x.push_back(point.time);
       series.y.push_back(errors ? point.error : point.residual);
@@ -72,7 +81,7 @@ std::string ToSvg(const SolveResult& result) {
     svg += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n{}</svg>\n",
                        kGap + i % columns * (kPanelWidth + kGap),
                        kLegendHeight + i / columns * (kPanelHeight + kGap), kPanelWidth,
-                       kPanelHeight, PlotOf(result.problems[i]).ToSvg());
+                       kPanelHeight, PlotOf(result, result.problems[i]).ToSvg());
   }
   return svg + "</svg>\n";
 }

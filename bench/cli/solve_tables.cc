@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "cli/solve_tables.h"
-#include "cli/phase_names.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 
 #include "cli/duration.h"
 #include "cli/phase_names.h"
+#include "cli/solve_frame_tables.h"
 #include "cli/summary.h"
 
 namespace cairn::cli {
@@ -45,8 +45,9 @@ std::string Effort(const HistoryPoint& point) {
 }
 
 bool AnyErrors(const SolveResult& result) {
-  return std::any_of(result.problems.begin(), result.problems.end(),
-                     [](const auto& problem) { return problem.truth != Yardstick::Truth::kNone; });
+  return std::any_of(result.problems.begin(), result.problems.end(), [](const auto& problem) {
+    return !problem.rows && problem.truth != Yardstick::Truth::kNone;
+  });
 }
 
 std::string Ended(const LcpSolverResult& solver) {
@@ -70,6 +71,7 @@ std::string TruthText(const ProblemResult& problem) {
       return "errors: against the known solution x";
     case Yardstick::Truth::kSlack:
       return "errors: against the known w = M x + q, as x need not be unique";
+    case Yardstick::Truth::kConverged:
     case Yardstick::Truth::kBestFound:
       return fmt::format("errors: against the best x found here, by pgs-sm to 1e-12{}",
                          BestRemark(problem.best_residual));
@@ -97,6 +99,43 @@ std::string Some(const std::vector<std::string>& names) {
   return text;
 }
 
+/// Why a solver did not solve a problem; empty if it did.
+std::string ReasonOf(const SolveResult& result, const LcpSolverResult& solver) {
+  const std::string reason = solver.failure.value_or("");
+  // Numbers would make every reason another one.
+  return IsSingle(result) ? reason : reason.substr(0, reason.find(" at residual"));
+}
+
+std::string MatrixReadingHelp(const SolveResult& result) {
+  std::string help = fmt::format(
+      "time: {} of the solver alone, from the problem in memory to the answer{}.\n"
+      "residual: of the natural map, rows scaled by the diagonal, relative to q. Solved means at "
+      "most\n"
+      "{:g}, and every answer met. nz(L): entries of the largest factor.\n",
+      result.clock == SolverClock::kThreadCpu ? "CPU time" : "wall-clock time",
+      result.repeat > 1 ? fmt::format(", median of {}", result.repeat) : "",
+      result.options.tolerance);
+  if (AnyErrors(result)) {
+    help +=
+        "error: of x: |x - x*| / |x*|; of w: |w - w*| / |q|; of best: as x, x* being the best "
+        "found here.\n"
+        "to 0.1 and so on: until the first iterate with that error. It is from another run, which "
+        "was\n"
+        "watched; the time of watching is left out.\n";
+  }
+  if (result.start == StartRule::kNested) {
+    help +=
+        "of it coarse: time on coarser grids for the start, which counts; sweeps and "
+        "factorisations\n"
+        "are those of the finest grid.\n";
+  }
+  if (result.any_march()) {
+    help +=
+        "Problems one after the other: time and work are sums, residual is the largest of all.\n";
+  }
+  return help;
+}
+
 }  // namespace
 
 TextTable WorkTable(const SolveResult& result) {
@@ -115,6 +154,7 @@ TextTable WorkTable(const SolveResult& result) {
   }
   table.columns.push_back({"end", ""});
   for (const ProblemResult& problem : result.problems) {
+    if (problem.rows) continue;
     for (const LcpSolverResult& solver : problem.solvers) {
       std::vector<std::string> row = NameCells(result, problem, solver);
       row.push_back(FormatTime(solver.time));
@@ -143,7 +183,7 @@ TextTable ErrorTable(const SolveResult& result) {
     table.columns.push_back({"sweeps", "+ factorised"});
   }
   for (const ProblemResult& problem : result.problems) {
-    if (problem.truth == Yardstick::Truth::kNone) continue;
+    if (problem.rows || problem.truth == Yardstick::Truth::kNone) continue;
     for (const LcpSolverResult& solver : problem.solvers) {
       std::vector<std::string> row = NameCells(result, problem, solver);
       for (const LevelReached& level : solver.levels) {
@@ -187,6 +227,7 @@ TextTable PhaseTable(const SolveResult& result) {
   AddNameColumns(result, &table);
   for (const auto& [name, phase] : kPhases) table.columns.push_back({name, "ms"});
   for (const ProblemResult& problem : result.problems) {
+    if (problem.rows) continue;
     for (const LcpSolverResult& solver : problem.solvers) {
       std::vector<std::string> row = NameCells(result, problem, solver);
       for (const auto& [name, phase] : kPhases) {
@@ -199,27 +240,32 @@ TextTable PhaseTable(const SolveResult& result) {
 }
 
 std::string Heading(const SolveResult& result) {
-  if (IsSingle(result)) return Heading(result.problems.front());
-  return fmt::format("{} problems, {} solver{}\n", result.problems.size(), result.solvers.size(),
-                     result.solvers.size() == 1 ? "" : "s");
+  if (IsSingle(result)) {
+    const ProblemResult& problem = result.problems.front();
+    return problem.rows ? FrameHeading(problem) : Heading(problem);
+  }
+  std::string text = fmt::format("{} problems, {} solver{}\n", result.problems.size(),
+                                 result.solvers.size(), result.solvers.size() == 1 ? "" : "s");
+  for (const ProblemResult& problem : result.problems) {
+    if (problem.rows) text += FrameHeading(problem);
+  }
+  return text;
 }
 
 std::string SolvedSummary(const SolveResult& result) {
   std::string text;
-  for (size_t i = 0; i < result.solvers.size(); ++i) {
+  for (const std::string& label : result.solvers) {
     std::map<std::string, std::vector<std::string>> reasons;
-    size_t solved = 0;
+    size_t solved = 0, all = 0;
     for (const ProblemResult& problem : result.problems) {
-      const LcpSolverResult& solver = problem.solvers[i];
-      if (!solver.failure) ++solved;
-      // Numbers would make every reason another one.
-      const std::string reason = IsSingle(result)
-                                     ? solver.failure.value_or("")
-                                     : solver.failure.value_or("").substr(
-                                           0, solver.failure.value_or("").find(" at residual"));
-      if (solver.failure) reasons[reason].push_back(problem.name);
+      for (const LcpSolverResult& solver : problem.solvers) {
+        if (solver.label != label) continue;
+        ++all;
+        if (!solver.failure) ++solved;
+        if (solver.failure) reasons[ReasonOf(result, solver)].push_back(problem.name);
+      }
     }
-    text += fmt::format("{}: {} of {} solved", result.solvers[i], solved, result.problems.size());
+    text += fmt::format("{}: {} of {} solved", label, solved, all);
     for (const auto& [reason, names] : reasons) {
       text += IsSingle(result) ? fmt::format("; {}", reason)
                                : fmt::format("; {} {} ({})", names.size(), reason, Some(names));
@@ -236,40 +282,19 @@ std::string SolvedSummary(const SolveResult& result) {
 }
 
 std::string ReadingHelp(const SolveResult& result) {
-  std::string help = fmt::format(
-      "time: {} of the solver alone, from the problem in memory to the answer{}.\n"
-      "residual: of the natural map, rows scaled by the diagonal, relative to q. Solved means at "
-      "most\n"
-      "{:g}, and every answer met. nz(L): entries of the largest factor.\n",
-      result.clock == SolverClock::kThreadCpu ? "CPU time" : "wall-clock time",
-      result.repeat > 1 ? fmt::format(", median of {}", result.repeat) : "",
-      result.options.tolerance);
-  if (AnyErrors(result)) {
-    help +=
-        "error: of x: |x - x*| / |x*|; of w: |w - w*| / |q|; of best: as x, x* being the best "
-        "found here.\n"
-        "to 0.1 and so on: until the first iterate with that error. It is from another run, which "
-        "was\n"
-        "watched; the time of watching is left out.\n";
-  }
-  if (result.start == StartRule::kNested) {
-    help +=
-        "of it coarse: time on coarser grids for the start, which counts; sweeps and "
-        "factorisations\n"
-        "are those of the finest grid.\n";
-  }
-  if (result.any_march()) {
-    help +=
-        "Problems one after the other: time and work are sums, residual is the largest of all.\n";
-  }
+  std::string help;
+  if (result.any_matrix()) help += MatrixReadingHelp(result);
+  if (result.any_frame()) help += FrameReadingHelp(result);
   return help + fmt::format("Machine: {}, {}.\n", result.machine.cpu, result.noise.verdict);
 }
 
 namespace {
 
 std::vector<TextTable> TablesWithRows(const SolveResult& result) {
-  std::vector<TextTable> tables = {WorkTable(result), ErrorTable(result), AnswerTable(result),
-                                   PhaseTable(result)};
+  std::vector<TextTable> tables = {WorkTable(result),       ErrorTable(result),
+                                   AnswerTable(result),     PhaseTable(result),
+                                   FrameWorkTable(result),  FrameLevelTable(result),
+                                   FrameErrorTable(result), FrameResidualTable(result)};
   std::erase_if(tables, [](const TextTable& table) { return table.rows.empty(); });
   return tables;
 }

@@ -83,6 +83,8 @@ const char* Yardstick::name() const {
       return "w";
     case Truth::kBestFound:
       return "best";
+    case Truth::kConverged:
+      return "reference";
   }
   return "-";
 }

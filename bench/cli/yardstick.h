@@ -16,6 +16,7 @@ class Yardstick {
     kSolution,   ///< The known solution.
     kSlack,      ///< The known w: x may not be unique.
     kBestFound,  ///< The best that was found here: by interior points, else by sweeps and steps.
+    kConverged,  ///< Of a recorded frame: velocities of a solution that converged.
   };
 
   /// Compares with nothing.
