@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "micro/bullet_rows.h"
 
-#include <cfloat>
-#include <climits>
-#include <numeric>
+#include <cmath>
 
 #include "micro/sound.h"
 
@@ -12,17 +10,10 @@ namespace {
 
 using simd::RowBound;
 
-btVector3 Convert(const Eigen::Vector3d& v) {
-  return btVector3(static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
-}
+using Pool = bench::PoolRow::Pool;
 
-btVector3 AngularComponent(const SceneBody& body, const Eigen::Vector3d& angular) {
-  return Convert(body.root * (body.root.transpose() * angular));
-}
-
-void CountUp(int size, btAlignedObjectArray<int>* order) {
-  order->resizeNoInitialize(size);
-  if (size > 0) std::iota(&(*order)[0], &(*order)[0] + size, 0);
+Eigen::Vector3d Response(const SceneBody& body, const Eigen::Vector3d& angular) {
+  return body.root * (body.root.transpose() * angular);
 }
 
 void ClearImpulses(btConstraintArray* rows) {
@@ -36,16 +27,16 @@ void AppendImpulses(const btConstraintArray& rows, int begin, int end, std::vect
 }  // namespace
 
 BulletRows::BulletRows(const RowScene& scene) {
-  for (const SceneBody& body : scene.bodies) AddBody(body);
+  for (const SceneBody& body : scene.bodies) {
+    AddBody({.moves = body.inv_mass > 0, .inv_mass = Eigen::Vector3d::Constant(body.inv_mass)});
+  }
   for (const RowScene::Pair& pair : scene.pairs) {
     pairs_.push_back(NextRows());
     const int count = static_cast<int>(scene.layouts[pair.layout].size());
-    for (int i = 0; i < count; ++i) AddRow(scene, pair, i);
+    for (int i = 0; i < count; ++i) AddSceneRow(scene, pair, i);
   }
   pairs_.push_back(NextRows());
-  CountUp(m_tmpSolverContactConstraintPool.size(), &m_orderTmpConstraintPool);
-  CountUp(m_tmpSolverContactFrictionConstraintPool.size(), &m_orderFrictionConstraintPool);
-  CountUp(m_tmpSolverNonContactConstraintPool.size(), &m_orderNonContactConstraintPool);
+  Begin();
 }
 
 BulletRows::PairRows BulletRows::NextRows() const {
@@ -53,50 +44,29 @@ BulletRows::PairRows BulletRows::NextRows() const {
           m_tmpSolverNonContactConstraintPool.size()};
 }
 
-void BulletRows::AddBody(const SceneBody& body) {
-  const btVector3 zero(0, 0, 0), one(1, 1, 1);
-  btSolverBody& solver_body = m_tmpSolverBodyPool.expandNonInitializing();
-  solver_body.m_worldTransform.setIdentity();
-  solver_body.m_worldTransform.setOrigin(Convert(body.position));
-  solver_body.m_deltaLinearVelocity = solver_body.m_deltaAngularVelocity = zero;
-  solver_body.m_linearFactor = solver_body.m_angularFactor = one;
-  solver_body.m_invMass = one * static_cast<float>(body.inv_mass);
-  solver_body.m_pushVelocity = solver_body.m_turnVelocity = zero;
-  solver_body.m_linearVelocity = Convert(body.velocity);
-  solver_body.m_angularVelocity = Convert(body.spin);
-  solver_body.m_externalForceImpulse = solver_body.m_externalTorqueImpulse = zero;
-  // a row moves only bodies that have one, and asks no more of it
-  solver_body.m_originalBody = body.inv_mass > 0 ? &movable_ : nullptr;
-}
-
-void BulletRows::AddRow(const RowScene& scene, const RowScene::Pair& pair, int index) {
+void BulletRows::AddSceneRow(const RowScene& scene, const RowScene::Pair& pair, int index) {
   const SceneRow& row = scene.rows[pair.first_row + index];
   const simd::RowShape& shape = scene.layouts[pair.layout][index];
   const bool is_contact = shape.bound == RowBound::kPush;
   const bool is_friction = shape.bound == RowBound::kFriction;
-  btSolverConstraint& to = (is_contact    ? m_tmpSolverContactConstraintPool
-                            : is_friction ? m_tmpSolverContactFrictionConstraintPool
-                                          : m_tmpSolverNonContactConstraintPool)
-                               .expandNonInitializing();
-  to.m_contactNormal1 = Convert(row.linear);
-  to.m_relpos1CrossNormal = Convert(row.angular_a);
-  to.m_contactNormal2 = pair.b == 0 ? btVector3(0, 0, 0) : -Convert(row.linear);
-  to.m_relpos2CrossNormal = Convert(row.angular_b);
-  to.m_angularComponentA = AngularComponent(scene.bodies[pair.a], row.angular_a);
-  to.m_angularComponentB = AngularComponent(scene.bodies[pair.b], row.angular_b);
-  to.m_appliedPushImpulse = to.m_appliedImpulse = 0;
-  to.m_friction = is_friction ? static_cast<float>(row.limit) : 0;
-  to.m_jacDiagABInv = static_cast<float>(row.step);
-  to.m_rhs = static_cast<float>(row.target * row.step);
-  to.m_cfm = to.m_rhsPenetration = 0;
-  const float limit = shape.bound == RowBound::kFree ? FLT_MAX : static_cast<float>(row.limit);
-  to.m_lowerLimit = is_contact ? 0 : -limit;
-  to.m_upperLimit = is_contact ? 1e10f : limit;
-  to.m_originalContactPoint = nullptr;
-  to.m_overrideNumSolverIterations = INT_MAX;
-  to.m_frictionIndex = is_friction ? pairs_.back().contacts + shape.parent : 0;
-  to.m_solverBodyIdA = pair.a;
-  to.m_solverBodyIdB = pair.b;
+  bench::PoolRow to;
+  to.pool = is_contact ? Pool::kContact : is_friction ? Pool::kFriction : Pool::kJoint;
+  to.body_a = pair.a;
+  to.body_b = pair.b;
+  to.linear_a = row.linear;
+  to.angular_a = row.angular_a;
+  if (pair.b != 0) to.linear_b = -row.linear;
+  to.angular_b = row.angular_b;
+  to.response_a = Response(scene.bodies[pair.a], row.angular_a);
+  to.response_b = Response(scene.bodies[pair.b], row.angular_b);
+  to.step = row.step;
+  to.target = row.target;
+  const double limit = shape.bound == RowBound::kFree ? INFINITY : row.limit;
+  to.lo = is_contact ? 0 : -limit;
+  to.hi = is_contact ? INFINITY : limit;
+  to.friction = is_friction ? row.limit : 0;
+  to.contact = is_friction ? pairs_.back().contacts + shape.parent : 0;
+  AddRow(to);
 }
 
 void BulletRows::Reset() {
@@ -107,10 +77,6 @@ void BulletRows::Reset() {
     m_tmpSolverBodyPool[i].m_deltaLinearVelocity.setZero();
     m_tmpSolverBodyPool[i].m_deltaAngularVelocity.setZero();
   }
-}
-
-void BulletRows::Sweep() {
-  solveSingleIteration(0, nullptr, 0, nullptr, 0, nullptr, 0, info_, nullptr);
 }
 
 void BulletRows::SolveFriction(btSolverConstraint* row) {

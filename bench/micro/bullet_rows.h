@@ -4,22 +4,20 @@
 #include <cstddef>
 #include <vector>
 
-#include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
-#include <BulletDynamics/Dynamics/btRigidBody.h>
-
+#include "measure/bullet_pools.h"
 #include "micro/row_scene.h"
 
 namespace cairn::micro {
 
 /// Rows in the memory of Bullet's own solver, swept over by its own compiled code.
-class BulletRows : private btSequentialImpulseConstraintSolver {
+class BulletRows : private bench::BulletPools<btSequentialImpulseConstraintSolver> {
  public:
   explicit BulletRows(const RowScene& scene);
 
   /// All at rest again.
   void Reset();
   /// Bullet's iteration: joints, all contacts, all friction.
-  void Sweep();
+  void Sweep() { BulletPools::Sweep(); }
   /// Bullet's row solver in the order of our kernels: pair by pair, contacts before friction.
   void SweepPairByPair();
 
@@ -41,14 +39,11 @@ class BulletRows : private btSequentialImpulseConstraintSolver {
     int contacts, frictions, joints;
   };
 
-  void AddBody(const SceneBody& body);
-  void AddRow(const RowScene& scene, const RowScene::Pair& pair, int index);
+  void AddSceneRow(const RowScene& scene, const RowScene::Pair& pair, int index);
   void SolveFriction(btSolverConstraint* row);
   PairRows NextRows() const;
 
   std::vector<PairRows> pairs_;  ///< And one more: where the rows end.
-  btContactSolverInfo info_;
-  btRigidBody movable_{1, nullptr, nullptr};  ///< Stands for all bodies that can move.
 };
 
 }  // namespace cairn::micro
