@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <span>
 
 #include "cli/failure.h"
 
@@ -31,10 +32,11 @@ int LiftLimits(Recording* recording) {
 }  // namespace
 
 bool IsRecording(const std::string& path) {
-  constexpr std::array<char, 8> kSignature = {'\x89', 'C', 'R', 'N', '\r', '\n', '\x1a', '\n'};
-  std::ifstream file(path, std::ios::binary);
   std::array<char, 8> begin{};
-  return file.read(begin.data(), begin.size()) && begin == kSignature;
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(begin.data(), begin.size())) return false;
+  Recording none;
+  return Decode(std::as_bytes(std::span(begin)), &none).fault != RecordingFault::kNotARecording;
 }
 
 std::shared_ptr<const RowProblem> LoadRowProblem(const std::string& path) {
