@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <string_view>
+#include <vector>
 
 #include "cli/error_at_budget.h"
 #include "cli/page_card.h"
@@ -11,6 +12,7 @@
 #include "cli/page_figures.h"
 #include "cli/page_parts.h"
 #include "cli/run_tables.h"
+#include "cli/scaling_table.h"
 #include "cli/summary.h"
 #include "cli/svg_plot.h"
 
@@ -98,6 +100,28 @@ std::string Section(const SceneResult& scene, const RunResult& run, size_t index
   return html + ProblemCard(scene) + "</section>\n";
 }
 
+/// What time depends on.
+std::string ScalingSection(const RunResult& run) {
+  std::string html = "<section>\n<h2>Scaling</h2>\n";
+  const TextTable table = ScalingTable(run);
+  if (table.rows.empty()) {
+    html +=
+        "<p class=\"soft\">Threads and instruction sets: not measured, as no solver of Cairn "
+        "was in this run.</p>\n";
+  } else {
+    html +=
+        "<p class=\"soft\">Ten plain sweeps of Cairn on the last frame, set-up included, by "
+        "threads (best instruction set) and by instruction set (one thread).</p>\n" +
+        Table(table, run.scenes.front()) + "<div class=\"legend scripted\">";
+    const std::vector<std::string> ways = ScalingWays(run);
+    for (size_t i = 0; i < ways.size(); ++i) {
+      html += fmt::format("<span>{}{}</span>", StyleKey(static_cast<int>(i)), Escape(ways[i]));
+    }
+    html += "</div>\n";
+  }
+  return html + "<div class=\"scripted\" data-plot=\"scaling\"></div>\n</section>\n";
+}
+
 }  // namespace
 
 std::string ToHtml(const RunResult& run) {
@@ -108,7 +132,7 @@ std::string ToHtml(const RunResult& run) {
       "<h1>Frame-budget report</h1><p class=\"soft\">{}</p>\n",
       PageStyle(), PlotStyleSheet(), Escape(run.date));
   for (size_t i = 0; i < run.scenes.size(); ++i) html += Section(run.scenes[i], run, i);
-  html += ScalingSection() + MethodBox(run);
+  html += ScalingSection(run) + MethodBox(run);
   if (!PageScript().empty()) {
     html += fmt::format(
         "<script type=\"application/json\" id=\"data\">{}</script>\n<script>{}</script>\n",

@@ -96,6 +96,18 @@ Json ToJson(const std::vector<Metronome::Beat>& beats) {
   return {{"arithmetic_ms", arithmetic}, {"memory_ms", memory}};
 }
 
+Json ToJson(const std::optional<Scaling>& scaling) {
+  if (!scaling) return nullptr;
+  Json threads = Json::array(), targets = Json::array();
+  for (const Scaling::Way& way : scaling->threads) {
+    threads.push_back({{"threads", std::stoi(way.name)}, {"time_ms", Number(way.time)}});
+  }
+  for (const Scaling::Way& way : scaling->targets) {
+    targets.push_back({{"simd", way.name}, {"time_ms", Number(way.time)}});
+  }
+  return {{"rows", scaling->rows}, {"by_threads", threads}, {"by_simd", targets}};
+}
+
 Json ToJson(const SceneResult& scene, const RunResult& run) {
   Json samples = Json::array();
   for (const Sample& sample : scene.samples) {
@@ -107,10 +119,11 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
   for (const SolverResult& solver : scene.solvers) solvers.push_back(ToJson(solver, scene, run));
   Json beats = Json::array();
   for (const auto& repetition : scene.beats) beats.push_back(ToJson(repetition));
-  return {
-      {"scene", scene.name},    {"size", scene.size},     {"seed", scene.seed},
-      {"bodies", scene.bodies}, {"joints", scene.joints}, {"residual_every", scene.observed_every},
-      {"samples", samples},     {"solvers", solvers},     {"metronome", beats}};
+  return {{"scene", scene.name},    {"size", scene.size},
+          {"seed", scene.seed},     {"bodies", scene.bodies},
+          {"joints", scene.joints}, {"residual_every", scene.observed_every},
+          {"samples", samples},     {"solvers", solvers},
+          {"metronome", beats},     {"scaling", ToJson(scene.scaling)}};
 }
 
 }  // namespace

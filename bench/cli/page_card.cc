@@ -83,12 +83,6 @@ std::string ProblemCard(const SceneResult& scene) {
   return html + "</dl></section>\n";
 }
 
-std::string ScalingSection() {
-  return "<h3>Scaling</h3>\n<div class=\"scripted\" data-plot=\"scaling\"></div>\n<p "
-         "class=\"soft\">"
-         "Time against threads and against instruction sets: not measured in this run.</p>\n";
-}
-
 std::string MethodBox(const RunResult& run) {
   std::string html = "<section class=\"card\"><h2>Method</h2><dl>\n";
   html += fmt::format("<dt>Command</dt><dd><code>{}</code></dd>\n", Escape(run.command));

@@ -94,6 +94,19 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
           {"timeline", ToJson(solver.timeline)}};
 }
 
+/// Rows, and ns for each of them with each number of threads and each instruction set.
+Json Ways(const std::optional<Scaling>& scaling) {
+  if (!scaling) return nullptr;
+  const auto times = [&](const std::vector<Scaling::Way>& ways) {
+    Json values = Json::array();
+    for (const Scaling::Way& way : ways) values.push_back(Short(1e6 * way.time / scaling->rows));
+    return values;
+  };
+  return {{"rows", scaling->rows},
+          {"threads", times(scaling->threads)},
+          {"targets", times(scaling->targets)}};
+}
+
 Json ToJson(const SceneResult& scene, const RunResult& run) {
   Json solvers = Json::array(), untimed = Json::array();
   for (const SolverResult& solver : scene.solvers) solvers.push_back(ToJson(solver, scene, run));
@@ -107,6 +120,7 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
           {"untimed", untimed},
           {"bullet_has_zones", scene.bullet_has_zones},
           {"solvers", solvers},
+          {"scaling", Ways(scene.scaling)},
           {"replay", PackReplay(scene, kReplayBytes / run.scenes.size())}};
 }
 

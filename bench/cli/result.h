@@ -12,6 +12,7 @@
 #include "cli/metronome.h"
 #include "cli/replay.h"
 #include "cli/run_context.h"
+#include "cli/scaling.h"
 #include "cli/setup.h"
 #include "cli/timeline.h"
 
@@ -89,6 +90,8 @@ struct SceneResult {
   bool bullet_has_zones = true;  ///< Bullet's profiler calls its hooks, as far as is known.
   std::vector<Sample> samples;
   std::vector<SolverResult> solvers;
+  /// Of the last frame of the first solver of Cairn; with RunOptions::page.
+  std::optional<Scaling> scaling;
 };
 
 /// Everything a run knows, for every form of output.

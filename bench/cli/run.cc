@@ -67,12 +67,23 @@ class SceneRun {
   }
 
   SceneResult Finish() {
+    if (options_.page) FindScaling();
     result_.bullet_has_zones = lanes_.front()->bullet_has_zones();
     for (const auto& lane : lanes_) result_.solvers.push_back(lane->Finish());
     return std::move(result_);
   }
 
  private:
+  void FindScaling() {
+    for (const auto& lane : lanes_) {
+      if (lane->cairn() == nullptr || lane->failed()) continue;
+      const ContactProblem problem = lane->cairn()->problem();
+      Scaling scaling = MeasureScaling(problem);
+      if (scaling.rows > 0) result_.scaling = std::move(scaling);
+      return;
+    }
+  }
+
   void Probe(int frame) {
     const auto source = std::find_if(lanes_.begin(), lanes_.end(),
                                      [](const auto& lane) { return !lane->failed(); });

@@ -5,21 +5,38 @@ import { legend } from "./legend.js";
 
 const LEAST_SCENES = 3;
 
-/** Median frame time against bodies, where the run has several scenes. */
+/** What time depends on, where the run has several scenes. */
 export function scaling(host, _, page) {
   if (page.scenes.length < LEAST_SCENES) {
     host.append(element("p", { className: "soft",
-      textContent: "Time against bodies: not measured in this run, which would need three scenes." }));
+      textContent: "Pictures of scaling need three scenes; this run has fewer." }));
     return;
   }
-  const scenes = [...page.scenes].sort((a, b) => a.bodies - b.bodies);
-  const lines = scenes[0].solvers.map((solver, style) => {
-    const points = new Map();
-    for (const scene of scenes) {
-      const p50 = scene.solvers[style]?.p50;
-      if (p50) points.set(scene.bodies, p50);
-    }
-    return { style, x: [...points.keys()], y: [...points.values()] };
+  addWays(host, page.scenes.filter((scene) => scene.scaling));
+  addBodies(host, [...page.scenes].sort((a, b) => a.bodies - b.bodies));
+}
+
+/** Time of a row with every number of threads and every instruction set; the legend is in the section. */
+function addWays(host, scenes) {
+  if (scenes.length < LEAST_SCENES) return;
+  scenes.sort((a, b) => a.scaling.rows - b.scaling.rows);
+  const x = scenes.map((scene) => scene.scaling.rows);
+  const note = scenes.map((scene) => `${scene.scaling.rows}: ${scene.name}`).join(", ");
+  const picture = (title, kind, firstStyle) => addChart(host, {
+    title, note,
+    lines: scenes[0].scaling[kind].map((_, i) => ({
+      style: firstStyle + i, x, y: scenes.map((scene) => scene.scaling[kind][i]) })),
+    x: { log: true, label: "rows" }, y: { log: true, label: "ten sweeps [ns a row]" },
+  });
+  picture("Time against rows, by threads", "threads", 0);
+  picture("Time against rows, by instruction set", "targets", scenes[0].scaling.threads.length);
+}
+
+/** Median frame time against bodies. */
+function addBodies(host, scenes) {
+  const lines = scenes[0].solvers.map((_, style) => {
+    const known = scenes.filter((scene) => scene.solvers[style]?.p50);
+    return { style, x: known.map((scene) => scene.bodies), y: known.map((scene) => scene.solvers[style].p50) };
   });
   addChart(host, {
     title: "Median frame time against bodies, scene by scene", lines,
@@ -27,6 +44,5 @@ export function scaling(host, _, page) {
     x: { log: true, label: "bodies" }, y: { log: true, label: "median time in the solver [ms]" },
   });
   const section = document.querySelector("section");
-  const box = legend(section.firstElementChild, scenes[0].solvers.map((_, i) => i));
-  host.append(box);
+  host.append(legend(section.firstElementChild, lines.map((_, i) => i)));
 }
