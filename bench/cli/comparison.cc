@@ -12,6 +12,9 @@
 namespace cairn::cli {
 namespace {
 
+/// A change is certain if its interval keeps so much of the threshold away from no change.
+constexpr double kCertainShare = 0.25;
+
 /// "'old.json' has 300, 'new.json' has 60"
 std::string Differ(const RunFile& before, const std::string& old_value, const RunFile& after,
                    const std::string& new_value) {
@@ -81,8 +84,9 @@ double Pooled(double (*statistic)(std::span<const double>), const Repetitions& s
 }
 
 Verdict Judge(const Ratio& ratio, double threshold) {
-  if (ratio.value > 1 + threshold && ratio.low > 1) return Verdict::kRegression;
-  if (ratio.value < 1 / (1 + threshold) && ratio.high < 1) return Verdict::kImproved;
+  const double certain = 1 + threshold * kCertainShare;
+  if (ratio.value > 1 + threshold && ratio.low > certain) return Verdict::kRegression;
+  if (ratio.value < 1 / (1 + threshold) && ratio.high < 1 / certain) return Verdict::kImproved;
   const bool could_be_twice = ratio.high > 1 + 2 * threshold;
   return ratio.value > 1 + threshold || could_be_twice ? Verdict::kUnknown : Verdict::kSame;
 }

@@ -17,7 +17,7 @@ struct Thresholds {
 
 enum class Verdict {
   kSame,        ///< No change as large as the threshold; twice the threshold is ruled out.
-  kRegression,  ///< Above the threshold, and certainly above nothing.
+  kRegression,  ///< Above the threshold, and certainly above a quarter of it.
   kImproved,    ///< The same the other way round.
   kUnknown,     ///< Neither can be said: too much noise.
   kNotMeasured

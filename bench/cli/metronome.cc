@@ -13,7 +13,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kChain = 10'000;
 /// 8 MB: more than the caches that a core has for itself.
 constexpr std::uint32_t kValues = 1 << 21;
-constexpr int kVisits = 1 << 12;
+constexpr int kVisits = 1 << 10;  // Few: what solvers left in the caches should stay there.
 
 /// Keeps the compiler from leaving out how `value` came about.
 void Use(double value) {

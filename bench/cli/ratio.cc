@@ -18,7 +18,7 @@ constexpr int kBlock = 8;
 constexpr double kRestart = 0.015;       ///< Between two starts of the same program,
 constexpr double kRestartTime = 0.0005;  ///< and so much [ms].
 /// Memory beats are noisy themselves, which makes slopes against them look flatter than they are.
-constexpr double kFlattened = 1.5;
+constexpr double kFlattened = 2;
 constexpr double kTiny = 1e-9;      ///< In place of 0, which has no logarithm.
 constexpr double kRounding = 1e-6;  ///< [m/s]
 

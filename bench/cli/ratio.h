@@ -8,7 +8,7 @@ namespace cairn::cli {
 /// How many times as large something is in the later of two runs: 1.1 is 10 % more.
 struct Ratio {
   double value = 1;
-  double low = 1, high = 1;  ///< It lies between these; value may be outside of neither.
+  double low = 1, high = 1;  ///< It lies between these, as value does.
 };
 
 /// A lane in one run and the machine beside it; all of the same frames.
@@ -27,8 +27,8 @@ inline constexpr int kFewestRepetitions = 3;
 /// the clock of the core; (2) the quickest repetition of a frame is what it takes undisturbed; (3)
 /// the ratio is the median over frames. The interval holds
 ///   - how ratios vary if other repetitions and frames are drawn (bootstrap, 98 %),
-///   - what a difference of the memory beats explains, if times of repetitions within a run rise
-///     with theirs: the part of the interval on that side of the value,
+///   - twice what a difference of the memory beats explains, going by how times of repetitions
+///     within a run rise with theirs,
 ///   - how much a program differs from itself the next time it is started: 1.5 % and 0.5 us.
 /// @pre kFewestRepetitions, and the same frames are finite everywhere
 Ratio CompareTimes(const MeasuredLane& before, const MeasuredLane& after);
