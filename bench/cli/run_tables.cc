@@ -116,13 +116,11 @@ std::string SceneHeading(const SceneResult& scene, const RunResult& run) {
 
 std::string DescribeRun(const RunResult& run) {
   return fmt::format(
-      "{} frames, {}, {}; {}; {} instructions{}", run.frames,
+      "{} frames, {}, {};\n{}; {} instructions{}", run.frames,
       run.warmup == 0 ? std::string("all of which count")
                       : fmt::format("the first {} of which do not count", run.warmup),
       run.repeat == 1 ? std::string("once")
-                      : fmt::format("{} times, of which all count in times and "
-                                    "residuals and the first in the rest",
-                                    run.repeat),
+                      : fmt::format("{} times (times and residuals are of all)", run.repeat),
       Describe(run.setup), run.simd_target, run.setup.simd.empty() ? "" : " by request");
 }
 
