@@ -3,10 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace cairn::cli {
 
 void SequentialImpulses::Begin(const Effort& effort, btContactSolverInfo* info) {
   info->m_numIterations = iterations_ = effort.iterations;
+}
+
+void QuarterImpulses::Begin(const Effort& effort, btContactSolverInfo* info) {
+  info->m_numIterations = iterations_ = std::max(1, effort.iterations / kParts);
 }
 
 void Nncg::Begin(const Effort& effort, btContactSolverInfo* info) {
@@ -62,6 +68,12 @@ void Dantzig::Begin(const Effort& effort, btContactSolverInfo* info) {
   // One island, one matrix; and without cfm the matrix of any resting box is singular.
   info->m_minimumSolverBatchSize = 1;
   info->m_globalCfm = btScalar(1e-5);
+}
+
+void PgsMlcp::Begin(const Effort& effort, btContactSolverInfo* info) {
+  solver_.BeginSubstep();
+  info->m_numIterations = iterations_ = effort.iterations;
+  info->m_minimumSolverBatchSize = 1;  // one island, one matrix
 }
 
 std::optional<double> Dantzig::fallback_share() const {

@@ -4,6 +4,7 @@
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
+#include <BulletDynamics/MLCPSolvers/btSolveProjectedGaussSeidel.h>
 
 #include <string>
 
@@ -19,6 +20,19 @@ class SequentialImpulses : public ObservedContestant<btSequentialImpulseConstrai
 
  private:
   int iterations_ = 0;
+};
+
+/// The same for a world that takes a frame in four parts: a quarter of the iterations in each, one
+/// at least.
+class QuarterImpulses : public ObservedContestant<btSequentialImpulseConstraintSolver> {
+ public:
+  static constexpr int kParts = 4;
+
+  void Begin(const Effort& effort, btContactSolverInfo* info) override;
+  Work work() const override { return {.iterations = kParts * iterations_}; }
+
+ private:
+  int iterations_ = 0;  ///< of a part
 };
 
 /// btNNCGConstraintSolver on all rows.
@@ -74,6 +88,19 @@ class Dantzig : public ObservedContestant<SafeMlcpSolver> {
 
  private:
   btDantzigSolver direct_;
+};
+
+/// btMLCPSolver with btSolveProjectedGaussSeidel, one matrix for each island.
+class PgsMlcp : public ObservedContestant<SafeMlcpSolver> {
+ public:
+  PgsMlcp() : ObservedContestant<SafeMlcpSolver>(&sweeps_) {}
+  void Begin(const Effort& effort, btContactSolverInfo* info) override;
+  Work work() const override { return {.iterations = iterations_}; }
+  std::string refusal() const override { return solver_.refusal(); }
+
+ private:
+  btSolveProjectedGaussSeidel sweeps_;
+  int iterations_ = 0;
 };
 
 }  // namespace cairn::cli

@@ -13,8 +13,10 @@ namespace {
 constexpr int kIterations[] = {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000};
 constexpr double kBudgets[] = {0.03, 0.06, 0.125, 0.25, 0.5, 1, 2, 4, 8, 16, 32, 64};  // [ms]
 
-std::vector<Effort> Efforts(Control control) {
+std::vector<Effort> Efforts(const SolverEntry& entry) {
+  const Control control = entry.control;
   std::vector<Effort> efforts;
+  if (entry.parts > 1) return efforts;
   if (control == Control::kNone) return {Effort{}};
   if (control == Control::kIterations) {
     for (const int iterations : kIterations)
@@ -44,7 +46,7 @@ double EffortLadder::Solve(const Rung& rung, bench::Substep* substep) const {
 }
 
 void EffortLadder::Build(bench::Substep* substep) {
-  for (const Effort& effort : Efforts(choice_.entry->control)) {
+  for (const Effort& effort : Efforts(*choice_.entry)) {
     if (effort.budget && Milliseconds(*effort.budget) > most_) return;
     const Rung& rung = rungs_.emplace_back(Rung{effort, choice_.Make()});
     // the first time is that of a cold start

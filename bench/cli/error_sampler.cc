@@ -13,7 +13,10 @@ ErrorSampler::ErrorSampler(std::span<const SolverChoice> solvers,
                            const btContactSolverInfo& defaults)
     : reference_(std::make_unique<bullet::ConstraintSolver>(bench::ReferenceSettings())),
       defaults_(defaults) {
-  for (const SolverChoice& choice : solvers) contestants_.push_back(choice.Make());
+  for (const SolverChoice& choice : solvers) {
+    contestants_.push_back(choice.Make());
+    in_parts_.push_back(choice.entry->parts > 1);
+  }
 }
 
 void ErrorSampler::AddLadders(std::span<const SolverChoice> solvers, double most) {
@@ -50,7 +53,7 @@ ErrorSampler::Errors ErrorSampler::Measure(bench::Substep* substep,
     contestants_[i]->Begin(efforts[i], &info);
     substep->Restore();
     substep->SolveWith(contestants_[i]->solver(), info, nullptr);
-    const bool refused = !contestants_[i]->refusal().empty();
+    const bool refused = !contestants_[i]->refusal().empty() || in_parts_[i];
     const double error = bench::VelocityError(truth, bench::ReadVelocities(substep->bodies()));
     errors.of_solvers.push_back(refused ? kNotMeasured : error);
   }

@@ -40,6 +40,7 @@ class ErrorSampler {
 
  private:
   std::vector<std::unique_ptr<Contestant>> contestants_;
+  std::vector<bool> in_parts_;  ///< of each solver: it takes a step in parts
   std::unique_ptr<bullet::ConstraintSolver> reference_;
   btContactSolverInfo defaults_;
   std::vector<std::unique_ptr<EffortLadder>> ladders_;  ///< one for each kind of solver

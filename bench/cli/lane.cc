@@ -54,7 +54,8 @@ Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOption
       world_(&watched_),
       scene_(scene.make()),
       defaults_(world_.solver_info()),
-      effort_(InitialEffort(choice, options)) {
+      effort_(InitialEffort(choice, options)),
+      parts_(choice.entry->parts) {
   scene_->Build(&world_, {.size = scene.size, .seed = scene.seed});
   watched_.Watch(world_.bullet());
   result_.label = choice.label;
@@ -101,7 +102,7 @@ void Lane::Step(Observing observing) {
   Prepare(observing);
   scene_->BeforeStep(&world_, static_cast<int>(result_.frames.size()));
   if (timeline_) timeline_->Begin();
-  world_.Step();
+  world_.Step(parts_);
   if (timeline_) timeline_->End();
   const std::chrono::nanoseconds time = watched_.TakeTime() - contestant_->TakeObservingTime();
   if (fit_) {
@@ -124,8 +125,8 @@ void Lane::Record(std::chrono::nanoseconds time) {
                             .steps_accepted = work.steps_accepted,
                             .steps_restored = work.steps_restored,
                             .factorisations = work.factorisations,
-                            .rows = observed_.rows,
-                            .islands = observed_.islands,
+                            .rows = observed_.rows / parts_,
+                            .islands = observed_.islands / parts_,
                             .facts = {}});
   if (!watched_.failure().empty()) {
     result_.failure = {.frame = frame, .reason = watched_.failure()};

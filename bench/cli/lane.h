@@ -63,6 +63,7 @@ class Lane {
   btContactSolverInfo defaults_;
   std::optional<IterationFit> fit_;
   Effort effort_;
+  int parts_;  ///< of a time step, see SolverEntry
   bool probing_ = false;
   Frame observed_;  ///< What observing found in this frame: residual, rows, islands.
   std::optional<ReplayRecorder> replay_;

@@ -28,9 +28,9 @@ World::~World() {
   for (const auto& release : releases_) release();
 }
 
-void World::Step() {
+void World::Step(int parts) {
   // 0 substeps: Bullet takes the time as one step instead of saving it up.
-  dynamics_->stepSimulation(time_step_, 0);
+  for (int i = 0; i < parts; ++i) dynamics_->stepSimulation(time_step_ / btScalar(parts), 0);
 }
 
 template <class MakeShape>

@@ -45,8 +45,8 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  /// Advances by exactly one time step.
-  void Step();
+  /// Advances by exactly one time step, in so many equal parts.
+  void Step(int parts = 1);
 
   /// Half extents [m].
   btRigidBody* AddBox(const btVector3& half_extents, const Placing& placing);

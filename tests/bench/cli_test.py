@@ -214,6 +214,18 @@ class RunTest(CairnTest):
         self.assertEqual(counts,
                          {"bullet-si": 7, "bullet-si@50": 50, "cairn": 7, "cairn-pgs@3": 3})
 
+    def test_substeps_share_the_iterations_and_have_no_error_of_a_state(self):
+        scene = self.run_json(*SMALL, "--iterations", "20", "--seed", "1", "--solver",
+                              "bullet-si,bullet-si-substeps4,bullet-pgs-mlcp")["scenes"][0]
+        whole, parts, dense = scene["solvers"]
+        self.assertEqual([s["summary"]["iterations_mean"] for s in (whole, parts, dense)],
+                         [20, 20, 20])
+        self.assertTrue(all(error is None for error in parts["velocity_errors_m_s"]))
+        for others in (whole, dense):
+            self.assertTrue(all(error is not None for error in others["velocity_errors_m_s"]))
+        self.assertTrue(parts["standing"])
+        self.assertNotEqual(parts["facts"], whole["facts"])
+
     def test_fitted_iterations_leave_the_default_where_there_is_time(self):
         scene = self.run_json(*SMALL, "--frames", "40", "--budget", "5ms", "--iterations", "fit",
                               "--solver", "bullet-si")["scenes"][0]
