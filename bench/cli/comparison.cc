@@ -171,6 +171,11 @@ void ReportFailures(const LaneComparison& lane, Comparison* result) {
   }
 }
 
+/// Frames of such a lane do other work in each repetition.
+bool GoesByTheClock(const RecordedLane& lane) {
+  return !lane.effort.ends_with("iterations") && lane.effort != "until done";
+}
+
 void CompareScene(const RecordedScene& before, const RecordedScene& after, const RunFile& old_file,
                   const RunFile& new_file, Comparison* result) {
   const SceneNoise& noise = result->noise.emplace_back(
@@ -188,6 +193,13 @@ void CompareScene(const RecordedScene& before, const RecordedScene& after, const
     if (!old_lane.failure.empty() || !new_lane.failure.empty()) continue;
     lane.time = CompareLaneTimes(old_lane, before, new_lane, after, result->thresholds.time);
     lane.error = CompareLaneErrors(old_lane, new_lane, result->thresholds.error);
+    if (GoesByTheClock(old_lane)) {
+      lane.time.verdict = lane.error.verdict = Verdict::kUnknown;
+      result->unknown.push_back(fmt::format(
+          "{}, {} ({}): goes by the clock, so that work and error follow the machine; not judged.",
+          lane.scene, lane.solver, lane.effort));
+      continue;
+    }
     Report(lane, lane.time, "slower", noise, result);
     Report(lane, lane.error, "less accurate", noise, result);
   }

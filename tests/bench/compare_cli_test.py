@@ -146,6 +146,16 @@ class VerdictTest(CompareTest):
         self.assertEqual(result.returncode, FINE, result.stdout)
         self.assertRegex(result.stdout, r"wall, bullet-si \(10 iterations\): cannot tell whether")
 
+    def test_what_goes_by_the_clock_is_not_judged(self):
+        def slower(result):
+            scale(result, "time_ms", 1.5)
+        timed = self.changed(lambda r: lane(r).update(effort="2 ms"))
+        new = copy.deepcopy(timed)
+        slower(new)
+        result = self.compare(new, old=timed)
+        self.assertEqual(result.returncode, FINE, result.stdout)
+        self.assertIn("tower, bullet-si (2 ms): goes by the clock", result.stdout)
+
     def test_few_repetitions_say_nothing(self):
         def cut(result):
             for scene in result["scenes"]:
