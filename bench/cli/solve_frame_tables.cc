@@ -70,6 +70,16 @@ TextTable TimeTable(const SolveResult& result, const char* what, double HistoryP
   return table;
 }
 
+/// Who got closer to the laws of the rows than the reference did; empty if nobody.
+std::string BetterThanReference(const ProblemResult& problem) {
+  for (const LcpSolverResult& solver : problem.solvers) {
+    if (!(solver.residual.max < problem.best_residual)) continue;
+    return fmt::format(";\n{} has a smaller residual than that, {} m/s", solver.label,
+                       FormatNumber(solver.residual.max));
+  }
+  return "";
+}
+
 std::string ReferenceText(const ProblemResult& problem) {
   if (problem.truth == Yardstick::Truth::kNone) return "errors: not measured";
   const std::string residual =
@@ -79,9 +89,9 @@ std::string ReferenceText(const ProblemResult& problem) {
     return fmt::format("errors: of velocities, against a converged reference ({})", residual);
   }
   return fmt::format(
-      "errors: NO REFERENCE CONVERGED, they are against the best found ({});\nerrors that are not "
-      "much larger than that say little",
-      residual);
+      "errors: NO REFERENCE CONVERGED, they are against where it ended ({});\nerrors that are not "
+      "much larger than that say little{}",
+      residual, BetterThanReference(problem));
 }
 
 }  // namespace
