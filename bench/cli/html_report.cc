@@ -112,12 +112,12 @@ std::string ScalingSection(const RunResult& run) {
     html +=
         "<p class=\"soft\">Ten plain sweeps of Cairn on the last frame, set-up included, by "
         "threads (best instruction set) and by instruction set (one thread).</p>\n" +
-        Table(table, run.scenes.front()) + "<div class=\"legend scripted\">";
+        Table(table, run.scenes.front()) + "<div class=\"scripted\"><div class=\"legend\">";
     const std::vector<std::string> ways = ScalingWays(run);
     for (size_t i = 0; i < ways.size(); ++i) {
       html += fmt::format("<span>{}{}</span>", StyleKey(static_cast<int>(i)), Escape(ways[i]));
     }
-    html += "</div>\n";
+    html += "</div></div>\n";
   }
   return html + "<div class=\"scripted\" data-plot=\"scaling\"></div>\n</section>\n";
 }

@@ -79,6 +79,22 @@ class PageTest(unittest.TestCase):
         return self.browser.run(
             COLOURS.replace("arguments[0]", f"{CANVASES}[arguments[0]]"), index)
 
+    def test_scaling_has_a_time_for_every_scene_and_way(self):
+        self.open()
+        rows = self.browser.run(
+            "const host = document.querySelector('[data-plot=scaling]').closest('section');"
+            "return [...host.querySelectorAll('tbody tr')].map((row) => [...row.cells].map((c) => c.textContent));")
+        ways = self.browser.run(
+            "const host = document.querySelector('[data-plot=scaling]').closest('section');"
+            "return [...host.querySelectorAll('th')].map((cell) => cell.firstChild.textContent);")
+        self.assertEqual([row[0] for row in rows], ["chain", "tower"])
+        self.assertEqual(ways[:3], ["scene", "rows", "1 thread"])
+        self.assertIn("scalar", ways)
+        for row in rows:
+            self.assertEqual(len(row), len(ways))
+            for time in row[2:]:
+                self.assertGreater(float(time), 0)
+
     def test_every_picture_is_drawn_in_light_and_dark(self):
         for scheme in ("light", "dark"):
             self.open(scheme)
