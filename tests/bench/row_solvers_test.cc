@@ -240,12 +240,12 @@ TEST(RowProblem, LetsSolversGoAsFarAsTheBudget) {
     const auto problem = frame.problem();
     EXPECT_EQ(problem->limited_sweeps, 10);
     CairnRowSolver solver(Method::kPgsSm, CountedOptions());
-    for (int time = 0; time < 3; ++time) {
+    for (int time = 0; time < 2; ++time) {
       ASSERT_EQ(solver.Prepare(*problem), "");
-      solver.IterateUntil({.iterations = {}, .time = std::chrono::milliseconds(20)});
+      solver.IterateUntil({.iterations = {}, .time = std::chrono::milliseconds(400)});
       const RowOutcome outcome = solver.Result();
-      EXPECT_GT(outcome.steps_accepted, 5) << scene << ", time " << time;
-      EXPECT_GT(outcome.iterations, 100) << scene;
+      EXPECT_GT(outcome.steps_accepted, 3) << scene << ", time " << time;
+      EXPECT_GT(outcome.iterations, 3 * problem->limited_sweeps) << scene;
       EXPECT_EQ(outcome.stop, "budget spent");
     }
   }
