@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The table of the README from results of cairn run: python3 readme_table.py RESULT.json...
 
-Each scene comes from the budget that fits it: 4 ms, or 16 ms where Bullet's ten iterations take longer than 4 ms."""
+Each scene comes from the budget that fits it: 4 ms, or 16 ms where Bullet's ten iterations take longer than 4 ms.
+Below it, for docs/benchmarks.md: the same residuals under every budget, and how many frames were over it."""
 import json
 import sys
 
@@ -44,6 +45,26 @@ def is_large(scene):
     return p50 is not None and p50 > USUAL
 
 
+def under_budget(scene):
+    """Mean residuals of Bullet as it fits and of Cairn, and the share of their frames over the budget."""
+    cells = {}
+    for solver in scene["solvers"]:
+        summary = solver["summary"]
+        over = 100 * (summary["overruns"] or 0) / max(1, summary["timed_frames"])
+        fallen = ", falls" if solver["standing"] is False else ""
+        late = f" ({over:.0f} %)" if over >= 1 else ""
+        cells[solver["solver"]] = short(summary["residual_mean_m_s"]) + late + fallen
+    return f"{cells[SOLVERS[1]]} / {cells[SOLVERS[2]]}"
+
+
+def print_budgets(runs):
+    budgets = sorted(runs)
+    print("\n| scene | " + " | ".join(f"{budget:g} ms" for budget in budgets) + " |")
+    print("|---|" + "---|" * len(budgets))
+    for name in next(iter(runs.values())):
+        print("| " + " | ".join([name] + [under_budget(runs[budget][name]) for budget in budgets]) + " |")
+
+
 def main(paths):
     if not paths:
         sys.exit(__doc__)
@@ -59,6 +80,8 @@ def main(paths):
     for name, scene in usual.items():
         large = LARGE in runs and name in runs[LARGE] and is_large(scene)
         print(row(runs[LARGE][name], LARGE) if large else row(scene, budget_of_usual))
+    if len(runs) > 1:
+        print_budgets(runs)
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ class RecordedScene {
     const bool wanted = options_.frames.Contains(frame);
     const std::string path =
         fmt::format("{}/{}-{:06}.cairn", options_.folder, scene_.info->name, frame);
-    if (wanted) Ask(path);
+    if (wanted) Ask(frame, path);
     lane_.Step(Lane::Observing::kOff);
     if (wanted) Check(frame, path);
     if (!lane_.failed()) return;
@@ -53,9 +53,9 @@ class RecordedScene {
     return options;
   }
 
-  void Ask(const std::string& path) {
-    if (lane_.cairn() != nullptr) return lane_.cairn()->RecordNext(path);
-    beside_.RecordNext(path);
+  void Ask(int frame, const std::string& path) {
+    if (lane_.cairn() != nullptr) return lane_.cairn()->RecordNext(path, frame);
+    beside_.RecordNext(path, frame);
     lane_.ProbeNext([this](bench::Substep* substep, const btContactSolverInfo& info) {
       substep->Restore();
       substep->SolveWith(&beside_, info, nullptr);

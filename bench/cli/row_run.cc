@@ -169,7 +169,7 @@ ProblemResult DescribeFrame(const RowProblem& problem, const RowYardstick& yards
   result.free_rows = std::count_if(rows.rows.begin(), rows.rows.end(), [](const Row& row) {
     return row.parent == kNoRow && row.lo == -kInfinity && row.hi == kInfinity;
   });
-  result.truth_name = "-";
+  result.truth_name = std::string(1, '-');  // GCC 12 warns of an assignment
   RowFacts& facts = result.rows.emplace();
   facts.frame = problem.frame.frame;
   facts.bodies = static_cast<int>(rows.bodies.size());

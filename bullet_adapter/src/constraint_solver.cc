@@ -124,9 +124,9 @@ std::span<const double> ConstraintSolver::impulses() const {
   return impl_->shown_impulses;
 }
 
-void ConstraintSolver::RecordNext(std::string path) {
+void ConstraintSolver::RecordNext(std::string path, std::int64_t frame) {
   if (impl_->recorder == nullptr) impl_->recorder = std::make_unique<Recorder>(kSource);
-  impl_->recorder->RecordNext(std::move(path));
+  impl_->recorder->RecordNext(std::move(path), frame);
 }
 
 const RecordedFiles& ConstraintSolver::recorded() const {

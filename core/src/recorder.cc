@@ -82,6 +82,11 @@ void Recorder::RecordTo(std::string folder, FrameChoice frames) {
   in_folder_ = true;
 }
 
+void Recorder::RecordNext(std::string path, std::int64_t frame) {
+  next_path_ = std::move(path);
+  next_frame_ = frame;
+}
+
 bool Recorder::Begin(const ContactProblem& problem, const Impulses& start) {
   if (next_path_.empty() && !(in_folder_ && frames_.Contains(frame_))) return false;
   recording_.Assign(problem, start);
@@ -89,7 +94,7 @@ bool Recorder::Begin(const ContactProblem& problem, const Impulses& start) {
 }
 
 void Recorder::End(const Settings& settings, const Report& report) {
-  recording_.frame = frame_;
+  recording_.frame = next_path_.empty() ? frame_ : next_frame_;
   recording_.settings = settings;
   recording_.settings.replay = nullptr;
   recording_.settings.executor = nullptr;

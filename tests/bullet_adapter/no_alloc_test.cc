@@ -1,45 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A substep that is no larger than one before is read, solved by sweeps and written without
-// allocating. A program of its own: it replaces operator new.
+// allocating. A program of its own, with an operator new that counts.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <string_view>
 
 #include "cairn/bullet/constraint_solver.h"
 #include "measure/instrumented_solver.h"
 #include "tests/bullet_adapter/scene_world.h"
-
-namespace {
-
-std::atomic<long> allocations{0};
-
-void* Allocate(std::size_t size, std::size_t alignment) {
-  allocations.fetch_add(1, std::memory_order_relaxed);
-  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  return Allocate(size, alignof(std::max_align_t));
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-  return Allocate(size, static_cast<std::size_t>(alignment));
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
+#include "tests/core/new_counter.h"
 
 namespace cairn::test {
 namespace {
@@ -65,16 +34,16 @@ TEST_P(AllocationsOf, ASubstepAreNoneOnceItsSizeWasSeen) {
   instrumented.ProbeNext([](bench::Substep* substep, const btContactSolverInfo& info) {
     bullet::ConstraintSolver solver({.k_sm = 0});
     for (bench::Substep::Group group : substep->groups()) {
-      long before = allocations.load();
+      long before = NewCalls();
       Solve(&group, info, &solver);
       if (substep->groups().size() == 1) {
-        EXPECT_GT(allocations.load(), before) << "counts nothing";
+        EXPECT_GT(NewCalls(), before) << "counts nothing";
       }
       for (int repetition = 0; repetition < 3; ++repetition) {
         substep->Restore();
-        before = allocations.load();
+        before = NewCalls();
         Solve(&group, info, &solver);
-        EXPECT_TRUE(repetition == 0 || allocations.load() == before) << repetition;
+        EXPECT_TRUE(repetition == 0 || NewCalls() == before) << repetition;
       }
       EXPECT_FALSE(solver.fell_back());
     }

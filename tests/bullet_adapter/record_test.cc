@@ -174,10 +174,12 @@ TEST(RecordedWorld, MayBeOneOfBulletsOwnRows) {
                                   {.mode = bullet::Mode::kReference});
   SceneWorld world("tower", &solver);
   world.Step(10);
-  solver.RecordNext(folder + "/tower.cairn");
+  solver.RecordNext(folder + "/tower.cairn", 10);
   world.Step(1);
   EXPECT_EQ(solver.recorded().written, 1);
-  EXPECT_TRUE(SolveAlone(Read(folder + "/tower.cairn")) == Shown(solver));
+  const Recording recording = Read(folder + "/tower.cairn");
+  EXPECT_EQ(recording.frame, 10);
+  EXPECT_TRUE(SolveAlone(recording) == Shown(solver));
   world.Step(1);
   EXPECT_EQ(solver.recorded().written, 1);
 }
@@ -196,6 +198,7 @@ TEST(RecordedWorld, MayBeOneThatIsRefused) {
   EXPECT_TRUE(solver.fell_back());
   EXPECT_GE(solver.recorded().written, 1);
   Recording recording = Read(folder + "/nan.cairn");
+  EXPECT_EQ(recording.frame, -1) << "nobody said which it is";
   std::vector<Velocity> velocities(recording.bodies.size());
   const Impulses impulses = recording.impulses();
   EXPECT_EQ(Solver(recording.settings).Solve(recording.problem(), impulses, velocities).status,

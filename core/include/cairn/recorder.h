@@ -60,7 +60,8 @@ class Recorder {
   /// with several worlds, and games that are played again, overwrite nothing.
   void RecordTo(std::string folder, FrameChoice frames);
   /// Writes the next frame to this file.
-  void RecordNext(std::string path) { next_path_ = std::move(path); }
+  /// @param frame  see Recording::frame
+  void RecordNext(std::string path, std::int64_t frame = -1);
 
   /// Copies the problem and its start, if this frame is wanted.
   bool Begin(const ContactProblem& problem, const Impulses& start);
@@ -78,7 +79,7 @@ class Recorder {
   std::string folder_, own_folder_, next_path_;
   FrameChoice frames_;
   bool in_folder_ = false;  ///< RecordTo() was called, and nothing went wrong with the folder.
-  std::int64_t frame_ = 0;
+  std::int64_t frame_ = 0, next_frame_ = -1;
   Recording recording_;
   RecordedFiles files_;
 };

@@ -4,6 +4,7 @@
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -75,7 +76,8 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
 
   /// Writes the problem of the next substep to a file. CAIRN_RECORD in the environment, looked at
   /// when a solver is made, writes those of all substeps; see docs/recording.md.
-  void RecordNext(std::string path);
+  /// @param frame  its number, which the file carries; -1 if there is none
+  void RecordNext(std::string path, std::int64_t frame = -1);
   /// What was written, and what could not be.
   const RecordedFiles& recorded() const;
 
