@@ -37,6 +37,16 @@ void CheckCircumstances(const RunFile& before, const RunFile& after, Comparison*
   }
 }
 
+void NoteFewRepetitions(const RunFile& before, const RunFile& after, Comparison* result) {
+  for (const RunFile* file : {&before, &after}) {
+    const size_t repetitions = file->scenes.front().arithmetic.size();
+    if (repetitions >= kFewestRepetitions) continue;
+    result->warnings.push_back(
+        fmt::format("'{}' has {} repetition{}: 'cairn run --repeat 20' sees smaller changes",
+                    file->path, repetitions, repetitions == 1 ? "" : "s"));
+  }
+}
+
 const RecordedScene& FindScene(const RecordedScene& wanted, const RunFile& before,
                                const RunFile& after) {
   for (const RecordedScene& scene : after.scenes) {
@@ -99,13 +109,6 @@ Change CompareLaneTimes(const RecordedLane& before, const RecordedScene& scene_b
                 .ratio = {},
                 .verdict = Verdict::kNotMeasured};
   if (!HaveSameFrames(before.times, after.times)) return change;
-  if (std::min(before.times.size(), after.times.size()) < kFewestRepetitions) {
-    change.ratio.value = change.after / change.before;
-    change.verdict = Verdict::kUnknown;
-    change.ratio.low = 0;
-    change.ratio.high = std::numeric_limits<double>::infinity();
-    return change;
-  }
   change.ratio = CompareTimes({before.times, scene_before.arithmetic, scene_before.memory},
                               {after.times, scene_after.arithmetic, scene_after.memory});
   change.verdict = Judge(change.ratio, threshold);
@@ -152,11 +155,8 @@ void Report(const LaneComparison& lane, const Change& change, const char* slower
                                               Between(change.ratio), Describe(noise)));
   }
   if (change.verdict == Verdict::kUnknown) {
-    const std::string why = std::isinf(change.ratio.high)
-                                ? fmt::format("fewer than {} repetitions", kFewestRepetitions)
-                                : Between(change.ratio) + "; " + Describe(noise);
-    result->unknown.push_back(
-        fmt::format("{}: cannot tell whether it is {}: {}.", who, slower, why));
+    result->unknown.push_back(fmt::format("{}: cannot tell whether it is {}: {}; {}.", who, slower,
+                                          Between(change.ratio), Describe(noise)));
   }
 }
 
@@ -231,6 +231,7 @@ Comparison Compare(const RunFile& before, const RunFile& after, const Thresholds
   Comparison result;
   result.thresholds = thresholds;
   CheckCircumstances(before, after, &result);
+  NoteFewRepetitions(before, after, &result);
   for (const RecordedScene& scene : before.scenes) {
     CompareScene(scene, FindScene(scene, before, after), before, after, &result);
   }

@@ -17,6 +17,8 @@ constexpr double kTail = 0.01;  ///< Of the draws on either side.
 constexpr int kBlock = 8;
 constexpr double kRestart = 0.015;       ///< Between two starts of the same program,
 constexpr double kRestartTime = 0.0005;  ///< and so much [ms].
+/// What the quickest of few repetitions still has of interruptions.
+constexpr double kFew = 0.03;
 /// Memory beats are noisy themselves, which makes slopes against them look flatter than they are.
 constexpr double kFlattened = 2;
 constexpr double kTiny = 1e-9;      ///< In place of 0, which has no logarithm.
@@ -177,7 +179,8 @@ Ratio CompareTimes(const MeasuredLane& before, const MeasuredLane& after) {
       kFlattened * cloud.SteepestSlope() * Pair{memory, memory_after}.Difference();
 
   const double shortest = std::min(Median(Medians(before.times)), Median(Medians(after.times)));
-  const double restart = kRestart + kRestartTime / shortest;
+  const bool few = std::min(times.size(), times_after.size()) < kFewestRepetitions;
+  const double restart = kRestart + kRestartTime / shortest + (few ? kFew : 0);
   interval.low = std::min(interval.low, difference) - restart - std::max(0.0, explained);
   interval.high = std::max(interval.high, difference) + restart - std::min(0.0, explained);
   return {std::exp(difference), std::exp(interval.low), std::exp(interval.high)};

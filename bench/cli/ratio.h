@@ -17,7 +17,7 @@ struct MeasuredLane {
   const Repetitions &arithmetic, &memory;  ///< Of the metronome [ms].
 };
 
-/// Fewer repetitions say nothing about how a machine varies.
+/// Fewer repetitions say little about how a machine varies.
 inline constexpr int kFewestRepetitions = 3;
 
 /// Compares what solvers took, on machines that were slower or faster at times.
@@ -29,8 +29,10 @@ inline constexpr int kFewestRepetitions = 3;
 ///   - how ratios vary if other repetitions and frames are drawn (bootstrap, 98 %),
 ///   - twice what a difference of the memory beats explains, going by how times of repetitions
 ///     within a run rise with theirs,
-///   - how much a program differs from itself the next time it is started: 1.5 % and 0.5 us.
-/// @pre kFewestRepetitions, and the same frames are finite everywhere
+///   - how much a program differs from itself the next time it is started: 1.5 % and 0.5 us,
+///   - with fewer repetitions than kFewestRepetitions, 3 % more: what they leave in of
+///   interruptions.
+/// @pre the same frames are finite everywhere
 Ratio CompareTimes(const MeasuredLane& before, const MeasuredLane& after);
 
 /// The ratio of mean residuals, the mean over repetitions taken first; the interval is that of

@@ -156,15 +156,25 @@ class VerdictTest(CompareTest):
         self.assertEqual(result.returncode, FINE, result.stdout)
         self.assertIn("tower, bullet-si (2 ms): goes by the clock", result.stdout)
 
-    def test_few_repetitions_say_nothing(self):
+    def test_one_repetition_is_judged_with_more_care(self):
         def cut(result):
             for scene in result["scenes"]:
-                scene["metronome"] = scene["metronome"][:2]
+                scene["metronome"] = scene["metronome"][:1]
                 for solver in scene["solvers"]:
-                    solver["repetitions"] = solver["repetitions"][:2]
-        result = self.compare(self.changed(cut), old=self.changed(cut))
-        self.assertEqual(result.returncode, FINE)
-        self.assertIn("fewer than 3 repetitions", result.stdout)
+                    solver["repetitions"] = solver["repetitions"][:1]
+        old = self.changed(cut)
+        same = self.compare(old, old=old)
+        self.assertEqual(same.returncode, FINE, same.stdout)
+        self.assertIn("has 1 repetition: 'cairn run --repeat 20' sees smaller changes", same.stdout)
+        slower = copy.deepcopy(old)
+        scale(slower, "time_ms", 1.1, 1, 0)
+        found = self.compare(slower, old=old)
+        self.assertEqual(found.returncode, REGRESSION, found.stdout)
+        self.assertIn("REGRESSION: wall, bullet-si", found.stdout)
+        self.assertNotIn("tower, bullet-si (10 iterations): 10", found.stdout)
+        slightly = copy.deepcopy(old)
+        scale(slightly, "time_ms", 1.055, 1, 0)
+        self.assertEqual(self.compare(slightly, old=old).returncode, FINE)
 
     def test_the_same_is_written_as_json(self):
         new = self.changed(lambda r: scale(r, "time_ms", 1.1, 1, 0))
