@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace cairn {
@@ -16,6 +18,13 @@ constexpr int kEnergyBits = 30;
 double ScaleOf(double largest) {
   const bool scalable = largest > 0 && std::isfinite(largest);
   return scalable ? std::ldexp(1.0, kEnergyBits - 1 - std::ilogb(largest)) : 1;
+}
+
+/// Without its fraction: std::floor() of what is not negative, which is a call on old instruction
+/// sets.
+double Whole(double number) {
+  constexpr double kWholeFrom = 1e15;
+  return number < kWholeFrom ? static_cast<double>(static_cast<std::int64_t>(number)) : number;
 }
 
 }  // namespace
@@ -140,11 +149,15 @@ void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
 
 void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const {
   const Plan& plan = frame_->plan();
-  const std::span<double> scales = frame_->scales();
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+  if (islands.size() == 1) {
+    residuals[islands[0]] = ErrorOfGroup(group);
+    return;
+  }
+  const std::span<double> scales = frame_->scales();
   for (int island : islands) residuals[island] = {};
-  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
-    Residual& residual = residuals[island];
+  ForLanes(group, [&](const simd::BlockError& error, int block, int lane) {
+    Residual& residual = residuals[plan.island_of(block, lane)];
     residual.max = std::max<double>(residual.max, error.max.lane[lane]);
     residual.max_angular = std::max<double>(residual.max_angular, error.max_angular.lane[lane]);
     residual.energy = std::max<double>(residual.energy, error.energy.lane[lane]);
@@ -153,24 +166,42 @@ void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residu
     scales[island] = ScaleOf(residuals[island].energy);
     residuals[island].energy = 0;
   }
-  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
-    const double energy = static_cast<double>(error.energy.lane[lane]);
-    residuals[island].energy += std::floor(energy * scales[island]);
+  ForLanes(group, [&](const simd::BlockError& error, int block, int lane) {
+    const int island = plan.island_of(block, lane);
+    residuals[island].energy +=
+        Whole(static_cast<double>(error.energy.lane[lane]) * scales[island]);
   });
   for (int island : islands) {
     residuals[island].energy = std::sqrt(residuals[island].energy / scales[island]);
   }
 }
 
+Residual BlockSweeps::ErrorOfGroup(const Group& group) const {
+  // lane by lane, which compilers make vector instructions of
+  simd::Line max = {}, angular = {}, energy = {};
+  ForLanes(group, [&](const simd::BlockError& error, int, int lane) {
+    max.lane[lane] = std::max(max.lane[lane], error.max.lane[lane]);
+    angular.lane[lane] = std::max(angular.lane[lane], error.max_angular.lane[lane]);
+    energy.lane[lane] = std::max(energy.lane[lane], error.energy.lane[lane]);
+  });
+  const auto largest = [](const simd::Line& line) {
+    return static_cast<double>(*std::max_element(line.lane, line.lane + simd::kLanes));
+  };
+  const double scale = ScaleOf(largest(energy));
+  double sum[simd::kLanes] = {};
+  ForLanes(group, [&](const simd::BlockError& error, int, int lane) {
+    sum[lane] += Whole(static_cast<double>(error.energy.lane[lane]) * scale);
+  });
+  const double whole = std::accumulate(sum, sum + simd::kLanes, 0.0);
+  return {.max = largest(max), .max_angular = largest(angular), .energy = std::sqrt(whole / scale)};
+}
+
 template <class Function>
 void BlockSweeps::ForLanes(const Group& group, const Function& function) const {
-  const Plan& plan = frame_->plan();
-  const int only = group.islands == 1 ? plan.islands_of_groups()[group.first_island] : -1;
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
     const simd::BlockError& error = frame_->errors()[b];
-    for (int lane = 0; lane < plan.blocks()[b].lanes; ++lane) {
-      function(error, lane, only >= 0 ? only : plan.island_of(b, lane));
-    }
+    const int lanes = frame_->plan().blocks()[b].lanes;
+    for (int lane = 0; lane < lanes; ++lane) function(error, b, lane);
   }
 }
 

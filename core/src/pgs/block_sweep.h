@@ -47,7 +47,9 @@ class BlockSweeps {
   /// Returns how many sweeps were made.
   int Run(Pass* pass, std::span<GroupSweeps> groups);
   void MeasureAt(double price, std::span<const GroupSweeps> groups);
-  /// function(errors of a block, lane, its island)
+  /// The same of a group that is one island.
+  Residual ErrorOfGroup(const Group& group) const;
+  /// function(errors of a block, block, lane)
   template <class Function>
   void ForLanes(const Group& group, const Function& function) const;
 
