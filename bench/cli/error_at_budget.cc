@@ -15,6 +15,8 @@ namespace {
 
 /// Errors closer than this are not told apart: the samples are few.
 constexpr double kLevel = 1.1;
+/// Errors below this are game accurate [m/s]: a sixteenth of what gravity adds in a frame.
+constexpr double kAccurate = 0.01;
 /// A solver keeps to a budget if no more than this share of its frames are longer.
 constexpr double kMayOverrun = 0.05;
 /// Where a run has no budget: a frame at 60 Hz [ms].
@@ -73,10 +75,17 @@ std::string Reservations(const SolverResult& solver, const SceneResult& scene,
 
 std::string Recommend(const SceneResult& scene, const RunResult& run) {
   const double budget = run.budget ? Milliseconds(*run.budget) : kFrame;
-  const std::vector<Candidate> candidates = Rank(scene, budget);
+  std::vector<Candidate> candidates = Rank(scene, budget);
   if (candidates.empty()) {
     return fmt::format("No solver had its error measured within {}.", FormatBudget(budget));
   }
+  // of those that are accurate, one whose run went well
+  const auto rest =
+      std::find_if(candidates.begin(), candidates.end(),
+                   [](const Candidate& candidate) { return candidate.error > kAccurate; });
+  std::stable_partition(candidates.begin(), rest, [&](const Candidate& candidate) {
+    return Reservations(*candidate.solver, scene, run).empty();
+  });
   const Candidate& best = candidates.front();
   std::string text =
       fmt::format("With {} a frame use {}: median velocity error {} m/s", FormatBudget(budget),
@@ -84,8 +93,12 @@ std::string Recommend(const SceneResult& scene, const RunResult& run) {
   if (candidates.size() > 1) {
     const double ratio = candidates[1].error / best.error;
     const std::string next = KindOf(*candidates[1].solver);
-    text += ratio >= kLevel ? fmt::format(", {:.2g} times less than {}, the next", ratio, next)
-                            : fmt::format(", about the same as {}", next);
+    if (candidates[1].error <= kAccurate) {
+      text += fmt::format("; {} is as good, both are below {} m/s", next, kAccurate);
+    } else {
+      text += ratio >= kLevel ? fmt::format(", {:.2g} times less than {}, the next", ratio, next)
+                              : fmt::format(", about the same as {}", next);
+    }
   }
   return text + "." + Reservations(*best.solver, scene, run);
 }
@@ -103,7 +116,7 @@ std::string WhereCairnDoesNotHelp(const SceneResult& scene, const RunResult& run
     }
     if (std::isinf(ours) && std::isinf(others)) continue;
     ++compared;
-    if (others <= ours * kLevel) budgets.push_back(FormatBudget(budget));
+    if (others <= std::max(ours * kLevel, kAccurate)) budgets.push_back(FormatBudget(budget));
   }
   if (compared == 0) return "";
   if (budgets.empty()) return " At every budget in the table below Cairn had the least error.";
@@ -128,9 +141,10 @@ std::vector<double> FixedBudgets(const RunResult& run) {
 double ErrorAtBudget(const SolverResult& solver, double budget) {
   std::vector<double> errors;
   for (const std::vector<CurvePoint>& curve : solver.curves) {
+    // from the least effort on; a solver that is done takes no longer with more
     const CurvePoint* last = nullptr;
     for (const CurvePoint& point : curve) {
-      if (point.time <= budget && (last == nullptr || point.time > last->time)) last = &point;
+      if (point.time <= budget) last = &point;
     }
     if (last == nullptr) return kNotMeasured;
     errors.push_back(last->error);

@@ -13,7 +13,7 @@ namespace cairn::cli {
 /// run.
 std::vector<double> FixedBudgets(const RunResult& run);
 
-/// Median over the samples of the error of the most costly effort that took at most `budget` [ms];
+/// Median over the samples of the error of the greatest effort that took at most `budget` [ms];
 /// NaN if on any sample none did, or nothing was measured.
 double ErrorAtBudget(const SolverResult& solver, double budget);
 

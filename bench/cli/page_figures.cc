@@ -46,7 +46,13 @@ Series MedianCurve(const SolverResult& solver, int style) {
       times.push_back(curve[rung].time);
       errors.push_back(curve[rung].error);
     }
-    series.x.push_back(Median(times));
+    // less effort that took longer says nothing
+    const double time = Median(times);
+    while (!series.x.empty() && series.x.back() >= time) {
+      series.x.pop_back();
+      series.y.pop_back();
+    }
+    series.x.push_back(time);
     series.y.push_back(Median(errors));
   }
   return series;

@@ -4,7 +4,10 @@ import { legend } from "./legend.js";
 import { budgetLimits } from "./limits.js";
 import { firstOfKinds, kindOf, median, quantile } from "./numbers.js";
 
-/** Medians over the samples, rung by rung, with the spread from the 10th to the 90th percentile. */
+/**
+ * Medians over the samples, rung by rung, with the spread from the 10th to the 90th percentile. A solver that is done
+ * takes no longer with more effort: less effort that took as long says nothing.
+ */
 function lineOf(solver, style) {
   const line = { style, x: [], y: [], ringed: [], spread: { low: [], high: [] } };
   const rungs = Math.max(0, ...solver.curves.map((curve) => curve.length));
@@ -12,7 +15,10 @@ function lineOf(solver, style) {
     const points = solver.curves.filter((curve) => rung < curve.length).map((curve) => curve[rung]);
     const x = median(points.map((p) => p[0]));
     const errors = points.map((p) => Math.max(p[1] ?? 0, 1e-12));
-    if (x === null || (line.x.length && x <= line.x.at(-1))) continue;
+    if (x === null) continue;
+    while (line.x.length && line.x.at(-1) >= x) {
+      [line.x, line.y, line.ringed, line.spread.low, line.spread.high].forEach((values) => values.pop());
+    }
     line.x.push(x);
     line.y.push(median(errors));
     line.ringed.push(median(points.map((p) => p[3])) > 0);
