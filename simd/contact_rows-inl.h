@@ -10,8 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include "simd/contact_bodies-inl.h"
 #include "simd/contact_rows.h"
-#include "simd/lane_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {
@@ -19,30 +19,8 @@ namespace HWY_NAMESPACE {
 namespace contacts {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// What a float can hold with its square.
-constexpr float kMost = 1e18f, kLeast = 1e-18f;
 /// Points that slide slower have no direction [m^2/s^2].
 constexpr float kLeastSlide = 1.1920929e-7f;
-
-/// The bodies of all lanes, ContactBody by number.
-struct Bodies {
-  Line number[kContactBodyNumbers];
-  HWY_INLINE Vector linear(int l) const { return At(number, l); }
-  HWY_INLINE Vector free_velocity(int l) const { return At(number + 12, l); }
-  HWY_INLINE Vector free_spin(int l) const { return At(number + 15, l); }
-  HWY_INLINE Vector start_velocity(int l) const { return At(number + 18, l); }
-  HWY_INLINE Vector start_spin(int l) const { return At(number + 21, l); }
-  /// R' of an angular vector.
-  HWY_INLINE Vector Whiten(Vector c, int l) const {
-    return {Dot(At(number + 3, l), c), Dot(At(number + 6, l), c), Dot(At(number + 9, l), c)};
-  }
-};
-
-HWY_INLINE void Gather(const ContactBody* const* from, Bodies* bodies) {
-  const float* numbers[kLanes];
-  for (int l = 0; l < kLanes; ++l) numbers[l] = from[l]->linear;
-  for (int k = 0; k < kContactBodyNumbers; k += 4) TransposeFour(numbers, k, bodies->number + k);
-}
 
 /// One point of all lanes: what was read, and what its rows have in common.
 struct Point {
@@ -242,18 +220,12 @@ class Packer {
   template <Acts acts = Acts::kPush, class Wanted>
   HWY_INLINE void PutRow(const Point& point, const Line* direction, const Line* compliance,
                          const Wanted& wanted) {
-    const V zero = hn::Zero(D()), one = Set(1), most = Set(kMost);
     Line* const behind = out_ + JacobianLines(form);
     for (int l = 0; l < kLanes; l += kWidth) {
       const Vector d = At(direction, l);
       V diagonal = acts == Acts::kPush ? PutPushing(point, d, l) : PutTurning(d, l);
       if (compliance != nullptr) diagonal = diagonal + Load(*compliance, l);
-      const M satisfiable = hn::Gt(diagonal, zero);
-      const V target = wanted(d, l);
-      Store(hn::IfThenElseZero(satisfiable, target), behind, l);
-      Store(one / hn::IfThenElse(satisfiable, diagonal, one), behind + 1, l);
-      Demand(hn::And(hn::And(hn::Le(hn::Abs(target), most), hn::Le(diagonal, most)),
-                     hn::Or(hn::Ge(diagonal, Set(kLeast)), hn::Eq(diagonal, zero))));
+      Demand(PutStep(wanted(d, l), diagonal, l, behind));
     }
     out_ = behind + 2;
   }

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "simd/contact_body.h"
 #include "simd/pair_block.h"
 #include "simd/target.h"
 
 namespace cairn::simd {
-
-/// A body as the rows of a contact see it: R with M^-1 = R R', and velocities. Zeros for what is
-/// not there.
-struct alignas(32) ContactBody {
-  float linear[3];   ///< diagonal of the linear part of R
-  float angular[9];  ///< angular part of R, column by column
-  float free[6];     ///< velocity without constraints: linear, angular
-  float start[6];    ///< the same before external impulses
-};
-inline constexpr int kContactBodyNumbers = sizeof(ContactBody) / sizeof(float);
 
 /// Numbers of a point of contact, in this order; see ContactPoint.
 enum PointNumber {

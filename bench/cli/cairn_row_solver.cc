@@ -16,6 +16,7 @@ std::string CairnRowSolver::Prepare(const RowProblem& problem) {
   row_impulses_ = problem.frame.row_impulses;
   point_impulses_ = problem.frame.point_impulses;
   twist_impulses_ = problem.frame.twist_impulses;
+  joint_impulses_ = problem.frame.joint_impulses;
   velocities_.resize(problem.frame.bodies.size());
   return {};
 }
@@ -23,27 +24,12 @@ std::string CairnRowSolver::Prepare(const RowProblem& problem) {
 void CairnRowSolver::IterateUntil(const RowLimit& limit) {
   solver_.settings().max_sweeps = limit.iterations.value_or(std::numeric_limits<int>::max());
   solver_.settings().budget = limit.time ? Budget::Time(*limit.time) : Budget::Unlimited();
-  solver_.Solve(problem_->frame.problem(), {row_impulses_, point_impulses_, twist_impulses_},
-                velocities_, &report_);
+  solver_.Solve(problem_->frame.problem(), impulses(), velocities_, &report_);
 }
 
 RowOutcome CairnRowSolver::Result() {
   RowOutcome outcome;
-  outcome.impulses = row_impulses_;
-  for (const Manifold& manifold : problem_->frame.manifolds) {
-    const ContactImpulse* const points = &point_impulses_[manifold.first_point];
-    for (int i = 0; i < manifold.points; ++i) outcome.impulses.push_back(points[i].normal);
-    for (int i = 0; i < manifold.points; ++i) {
-      const float* const tangential = points[i].tangential;
-      outcome.impulses.insert(outcome.impulses.end(), tangential, tangential + manifold.tangents);
-    }
-    if (!manifold.twists) continue;
-    for (int i = 0; i < manifold.points; ++i) {
-      const TwistImpulse& twist = twist_impulses_[manifold.first_point + i];
-      outcome.impulses.insert(outcome.impulses.end(),
-                              {twist.spinning, twist.rolling[0], twist.rolling[1]});
-    }
-  }
+  outcome.impulses = AllImpulses(problem_->frame.problem(), impulses());
   outcome.velocities = velocities_;
   outcome.iterations = report_.sweeps;
   outcome.factorisations = report_.factorisations;

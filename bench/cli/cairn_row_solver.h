@@ -20,10 +20,13 @@ class CairnRowSolver : public RowSolver {
 
  private:
   Solver solver_;
+  Impulses impulses() { return {row_impulses_, point_impulses_, twist_impulses_, joint_impulses_}; }
+
   const RowProblem* problem_ = nullptr;
   std::vector<double> row_impulses_;
   std::vector<ContactImpulse> point_impulses_;
   std::vector<TwistImpulse> twist_impulses_;
+  std::vector<float> joint_impulses_;
   std::vector<Velocity> velocities_;
   Report report_;
 };

@@ -25,6 +25,7 @@ int LiftLimits(Recording* recording) {
     *limit = kNoLimit;
   };
   for (Row& row : recording->rows) lift(&row.max_sweeps);
+  for (Joint& joint : recording->joints) lift(&joint.max_sweeps);
   for (Manifold& manifold : recording->manifolds) lift(&manifold.max_sweeps);
   return least == kNoLimit ? 0 : least;
 }
@@ -48,6 +49,7 @@ std::shared_ptr<const RowProblem> LoadRowProblem(const std::string& path) {
   problem->source = problem->frame.source;
   problem->limited_sweeps = LiftLimits(&problem->frame);
   problem->first_contact = static_cast<int>(problem->frame.rows.size());
+  for (const Joint& joint : problem->frame.joints) problem->first_contact += joint.rows;
   if (const Status status = WriteOutRows(problem->frame, &problem->rows); status != Status::kOk) {
     throw Failure(kBadInput, fmt::format("'{}' holds a frame that no solver takes: {}", path,
                                          Describe(status)));
@@ -64,6 +66,7 @@ RowProblem FromZero(const RowProblem& problem) {
     std::fill(recording->row_impulses.begin(), recording->row_impulses.end(), 0);
     for (ContactImpulse& impulse : recording->point_impulses) impulse = {};
     for (TwistImpulse& impulse : recording->twist_impulses) impulse = {};
+    for (float& impulse : recording->joint_impulses) impulse = 0;
   }
   return copy;
 }

@@ -104,7 +104,7 @@ std::vector<int> ThreadCounts() {
 
 Scaling MeasureScaling(const ContactProblem& problem) {
   Scaling result;
-  result.rows = static_cast<int>(problem.rows.size()) + ContactRows(problem);
+  result.rows = static_cast<int>(AllRows(problem));
   if (problem.bodies.empty() || result.rows == 0) return result;
   std::vector<std::unique_ptr<TimedSolver>> threads, targets;
   const std::vector<int> counts = ThreadCounts();

@@ -111,7 +111,7 @@ class Swap {
     times.finish.push_back(parts.finish);
     const ContactProblem problem = fast_.problem();
     const auto points = static_cast<double>(problem.points.size());
-    const auto joint_rows = static_cast<double>(problem.rows.size());
+    const auto joint_rows = static_cast<double>(problem.rows.size() + problem.joint_rows.size());
     times.points.push_back(points);
     times.joint_rows.push_back(joint_rows);
     times.bodies.push_back(static_cast<double>(problem.bodies.size()));

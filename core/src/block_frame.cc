@@ -91,24 +91,26 @@ BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
           .contact_bodies = contact_bodies_,
           .omega = omega_,
           .pack_row = pack_row_,
+          .pack_joints = pack_joints_,
           .pack_contacts = pack_contacts_};
 }
 
-bool BlockFrame::SameManifolds(std::span<const Manifold> manifolds) const {
-  // where their points are is not part of the plan
-  const auto same = [](const Manifold& a, const Manifold& b) {
-    return a.body_a == b.body_a && a.body_b == b.body_b && a.points == b.points &&
-           a.tangents == b.tangents && a.soft == b.soft && a.twists == b.twists &&
-           a.max_sweeps == b.max_sweeps;
+bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem) const {
+  // where their rows and points are is not part of the plan
+  const auto same = [](const auto& a, const auto& b) {
+    return a.body_a == b.body_a && a.body_b == b.body_b && HasLawOf(a, b);
   };
-  return std::equal(manifolds.begin(), manifolds.end(), planned_manifolds_.begin(),
-                    planned_manifolds_.end(), same);
+  return std::ranges::equal(problem.joints, planned_joints_, same) &&
+         std::ranges::equal(problem.manifolds, planned_manifolds_, same);
 }
 
 PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const Impulses& impulses,
                              Crew* crew) {
   if (!WhitenBodies(problem, crew)) return PackResult::kChanged;
   if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kChanged;
+  for (int i = 0; i < static_cast<int>(problem.joints.size()); ++i) {
+    if (ValidateJoint(problem, i) != Status::kOk) return PackResult::kChanged;
+  }
   for (int i = 0; i < static_cast<int>(problem.manifolds.size()); ++i) {
     if (ValidateManifold(problem, i) != Status::kOk) return PackResult::kChanged;
   }
@@ -116,7 +118,7 @@ PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const 
   // the plan of the last frame, if nothing began or ended
   PackResult result = PackResult::kChanged;
   const bool alike = planned_ && omega == omega_ && problem.rows.size() == planned_rows_ &&
-                     movable_now_ == movable_ && SameManifolds(problem.manifolds);
+                     movable_now_ == movable_ && SameJointsAndManifolds(problem);
   if (alike) result = Pack(problem, impulses, crew);
   if (result == PackResult::kChanged) {
     planned_ = MakePlan(problem, omega, impulses.rows, crew);
@@ -135,6 +137,7 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
   movable_.swap(movable_now_);
   omega_ = omega;
   planned_rows_ = problem.rows.size();
+  planned_joints_.assign(problem.joints.begin(), problem.joints.end());
   planned_manifolds_.assign(problem.manifolds.begin(), problem.manifolds.end());
   ++plan_number_;
   laws_.resize(planned_rows_);
@@ -150,7 +153,7 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
 
 bool BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
   const std::span<const Body> bodies = problem.bodies;
-  const bool contacts = !problem.manifolds.empty();
+  const bool contacts = !problem.manifolds.empty() || !problem.joints.empty();
   if (contacts) contact_bodies_.resize(bodies.size());
   bodies_.resize(bodies.size());
   movable_now_.resize(bodies.size());

@@ -44,16 +44,18 @@ class BlockFrame {
   bool MakePlan(const ContactProblem& problem, double omega, std::span<const double> impulses,
                 Crew* crew);
   PackResult Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew);
-  bool SameManifolds(std::span<const Manifold> manifolds) const;
+  bool SameJointsAndManifolds(const ContactProblem& problem) const;
   void Start(Crew* crew);
   BlockPacker PackerOf(const ContactProblem& problem) const;
 
   const simd::Target target_ = simd::ChooseTarget().target;
   const simd::PairKernels* kernels_ = &simd::PairKernelsFor(target_);
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
+  simd::JointRowsKernel pack_joints_ = simd::JointRowsKernelFor(target_);
   simd::ContactRowsKernel pack_contacts_ = simd::ContactRowsKernelFor(target_);
   Plan plan_;
   std::vector<RowLaw> laws_;
+  std::vector<Joint> planned_joints_;
   std::vector<Manifold> planned_manifolds_;
   int plan_number_ = 0;
   double omega_ = 1;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "joint_pack.h"
 #include "manifold_pack.h"
 #include "row_law.h"
 
@@ -303,27 +304,47 @@ void BlockPacker::Reserve(BlockData* blocks) const {
 PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulses,
                              BlockData* blocks) const {
   for (int block = first_block; block < first_block + count; ++block) {
-    const bool rows = plan.pair(block, 0).manifold == Pair::kNoManifold;
-    const PackResult result = rows ? OneBlock(*this, block, blocks).Pack(impulses.rows)
-                                   : PackManifolds(*this, block, impulses, blocks);
+    const PackResult result = PackBlock(block, impulses, blocks);
     if (result != PackResult::kDone) return result;
   }
   return PackResult::kDone;
 }
 
+PackResult BlockPacker::PackBlock(int block, const Impulses& impulses, BlockData* blocks) const {
+  switch (plan.pair(block, 0).source) {
+    case RowSource::kRows:
+      break;
+    case RowSource::kJoint:
+      return PackJoints(*this, block, impulses, blocks);
+    case RowSource::kManifold:
+      return PackManifolds(*this, block, impulses, blocks);
+  }
+  return OneBlock(*this, block, blocks).Pack(impulses.rows);
+}
+
 void BlockPacker::WriteImpulses(int first_block, int count, const BlockData& blocks,
                                 const Impulses& impulses) const {
   for (int i = first_block; i < first_block + count; ++i) {
-    if (plan.pair(i, 0).manifold != Pair::kNoManifold) {
-      WriteManifolds(*this, i, blocks, impulses);
-      continue;
+    switch (plan.pair(i, 0).source) {
+      case RowSource::kRows:
+        WriteRows(i, blocks, impulses);
+        break;
+      case RowSource::kJoint:
+        WriteJoints(*this, i, blocks, impulses);
+        break;
+      case RowSource::kManifold:
+        WriteManifolds(*this, i, blocks, impulses);
+        break;
     }
-    const simd::PairBlock& block = plan.blocks()[i];
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      const std::span<const int> rows = plan.rows_of(plan.pair(i, lane));
-      for (int k = 0; k < block.row_count; ++k) {
-        impulses.rows[rows[k]] = static_cast<double>(blocks.x[block.x + k].lane[lane]);
-      }
+  }
+}
+
+void BlockPacker::WriteRows(int index, const BlockData& blocks, const Impulses& impulses) const {
+  const simd::PairBlock& block = plan.blocks()[index];
+  for (int lane = 0; lane < block.lanes; ++lane) {
+    const std::span<const int> rows = plan.rows_of(plan.pair(index, lane));
+    for (int k = 0; k < block.row_count; ++k) {
+      impulses.rows[rows[k]] = static_cast<double>(blocks.x[block.x + k].lane[lane]);
     }
   }
 }

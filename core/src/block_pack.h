@@ -7,6 +7,7 @@
 #include "cairn/contact_problem.h"
 #include "plan.h"
 #include "simd/contact_rows.h"
+#include "simd/joint_rows.h"
 #include "simd/pair_block.h"
 #include "simd/row_pack.h"
 #include "whitening.h"
@@ -36,10 +37,17 @@ struct BlockPacker {
   const Plan& plan;
   const MovableBodies& movable;
   std::span<const WhitenedBody> bodies;
-  std::span<const simd::ContactBody> contact_bodies;  ///< if there are manifolds
+  std::span<const simd::ContactBody> contact_bodies;  ///< if there are joints or manifolds
   double omega;
   simd::RowPackKernel pack_row;
+  simd::JointRowsKernel pack_joints;
   simd::ContactRowsKernel pack_contacts;
+
+  /// A body as joints and contacts see it.
+  const simd::ContactBody* contact_body(int body) const {
+    static constexpr simd::ContactBody kNobody{};
+    return body == kWorld ? &kNobody : &contact_bodies[body];
+  }
 
   /// Makes room.
   void Reserve(BlockData* blocks) const;
@@ -52,6 +60,10 @@ struct BlockPacker {
   /// Velocities of so many bodies from the first on.
   void WriteVelocities(int first_body, int count, const BlockData& blocks,
                        std::span<Velocity> velocities) const;
+
+ private:
+  PackResult PackBlock(int block, const Impulses& impulses, BlockData* blocks) const;
+  void WriteRows(int block, const BlockData& blocks, const Impulses& impulses) const;
 };
 
 }  // namespace cairn

@@ -25,7 +25,7 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
                               BudgetMeter* meter, const Impulses& impulses,
                               std::span<Velocity> velocities, Report* report) {
   crew_.Follow(settings);
-  const size_t rows = problem.rows.size() + static_cast<size_t>(ContactRows(problem));
+  const size_t rows = AllRows(problem);
   Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
   crew->RecordTo(settings.spans);
   const Shift shift(crew);

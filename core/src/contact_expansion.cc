@@ -57,17 +57,17 @@ Motion ToMotion(const ContactMotion& from) {
           .free = {ToVector(from.free_velocity), ToVector(from.free_spin)}};
 }
 
+/// What joints and contacts see of the motion of a body.
+Motion SeenMotion(const ContactProblem& problem, int body) {
+  const bool own = problem.motions.empty() || body == kWorld;
+  return own ? MotionOf(problem.bodies, body) : ToMotion(problem.motions[body]);
+}
+
 Vector3d VelocityAt(const Velocity& velocity, const Vector3d& arm) {
   return velocity.linear + velocity.angular.cross(arm);
 }
 
 }  // namespace
-
-int ContactRows(const ContactProblem& problem) {
-  int rows = 0;
-  for (const Manifold& manifold : problem.manifolds) rows += manifold.rows();
-  return rows;
-}
 
 /// Directions of a point and the targets along them.
 struct ContactExpansion::Point {
@@ -80,22 +80,46 @@ ContactExpansion::ContactExpansion(const ContactProblem& problem, const Impulses
     : bodies_(problem.bodies),
       rows_(problem.rows.begin(), problem.rows.end()),
       impulses_(start.rows.begin(), start.rows.end()),
-      first_(rows_.size()),
+      given_(rows_.size()),
+      joints_(problem.joints.begin(), problem.joints.end()),
       manifolds_(problem.manifolds.begin(), problem.manifolds.end()) {
-  for (const Manifold& manifold : manifolds_) {
-    Add(manifold, problem, start);
+  for (const Joint& joint : joints_) Add(joint, problem, start);
+  for (const Manifold& manifold : manifolds_) Add(manifold, problem, start);
+}
+
+void ContactExpansion::Add(const Joint& joint, const ContactProblem& problem,
+                           const Impulses& start) {
+  const Motion own_a = MotionOf(bodies_, joint.body_a), own_b = MotionOf(bodies_, joint.body_b);
+  const Motion a = SeenMotion(problem, joint.body_a), b = SeenMotion(problem, joint.body_b);
+  for (int i = joint.first_row; i < joint.first_row + joint.rows; ++i) {
+    const JointRow& from = problem.joint_rows[i];
+    Row& row = rows_.emplace_back();
+    row.body_a = joint.body_a;
+    row.body_b = joint.body_b;
+    row.linear_a = ToVector(from.linear_a);
+    row.angular_a = ToVector(from.angular_a);
+    row.linear_b = joint.opposite ? Vector3d(-row.linear_a) : ToVector(from.linear_b);
+    row.angular_b = ToVector(from.angular_b);
+    const auto along = [&row](const Motion& of_a, const Motion& of_b) {
+      return row.linear_a.dot(of_a.free.linear) + row.angular_a.dot(of_a.free.angular) +
+             row.linear_b.dot(of_b.free.linear) + row.angular_b.dot(of_b.free.angular);
+    };
+    // targets are for velocities as the bodies have them
+    row.target = from.target - joint.damping * along(a, b) + along(own_a, own_b);
+    row.compliance = joint.soft ? from.compliance : 0;
+    if (joint.is_bounded(i - joint.first_row)) {
+      row.lo = from.lo;
+      row.hi = from.hi;
+    }
+    row.max_sweeps = joint.max_sweeps;
+    impulses_.push_back(start.joint_rows[i]);
   }
 }
 
 ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const ContactPoint& point,
                                               const ContactProblem& problem) const {
-  // what the bodies do, and what contacts see of it
-  const auto seen = [&](int body) {
-    const bool own = problem.motions.empty() || body == kWorld;
-    return own ? MotionOf(bodies_, body) : ToMotion(problem.motions[body]);
-  };
   const ContactLaw& law = problem.contact_law;
-  const Motion a = seen(manifold.body_a), b = seen(manifold.body_b);
+  const Motion a = SeenMotion(problem, manifold.body_a), b = SeenMotion(problem, manifold.body_b);
   const Vector3d arm_a = ToVector(point.arm_a), arm_b = ToVector(point.arm_b);
   const Vector3d n = ToVector(point.normal), given = ToVector(point.tangent);
   const auto relative = [&](const Velocity& of_a, const Velocity& of_b) -> Vector3d {
@@ -194,9 +218,13 @@ void ContactExpansion::AddTwists(const Manifold& manifold, const ContactProblem&
 }
 
 void ContactExpansion::Write(const Impulses& impulses) const {
-  const auto behind = impulses_.begin() + static_cast<std::ptrdiff_t>(first_);
-  std::copy(impulses_.begin(), behind, impulses.rows.begin());
-  auto next = behind;
+  auto next = impulses_.begin() + static_cast<std::ptrdiff_t>(given_);
+  std::copy(impulses_.begin(), next, impulses.rows.begin());
+  for (const Joint& joint : joints_) {
+    for (int i = 0; i < joint.rows; ++i) {
+      impulses.joint_rows[joint.first_row + i] = static_cast<float>(*next++);
+    }
+  }
   auto direction = directions_.begin();
   for (const Manifold& manifold : manifolds_) {
     const auto friction = next + manifold.points;

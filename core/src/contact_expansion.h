@@ -8,8 +8,9 @@
 
 namespace cairn {
 
-/// A problem with the rows of its manifolds written out, in double precision: the specification of
-/// simd/contact_rows, and what is solved where that does not do.
+/// A problem with the rows of its joints and manifolds written out, in double precision: the
+/// specification of simd/joint_rows and simd/contact_rows, and what is solved where those do not
+/// do.
 class ContactExpansion {
  public:
   /// The bodies of @p problem are referred to.
@@ -26,6 +27,7 @@ class ContactExpansion {
   struct Directions {
     Eigen::Vector3d normal, t1;
   };
+  void Add(const Joint& joint, const ContactProblem& problem, const Impulses& start);
   void Add(const Manifold& manifold, const ContactProblem& problem, const Impulses& start);
   void AddTwists(const Manifold& manifold, const ContactProblem& problem,
                  std::span<const TwistImpulse> start, int first);
@@ -35,7 +37,8 @@ class ContactExpansion {
   std::span<const Body> bodies_;
   std::vector<Row> rows_;
   std::vector<double> impulses_;
-  size_t first_ = 0;  ///< of the rows that are written out
+  size_t given_ = 0;  ///< rows of the problem itself; those that are written out come behind
+  std::vector<Joint> joints_;
   std::vector<Manifold> manifolds_;
   std::vector<Directions> directions_;  ///< of their points, one after the other
 };

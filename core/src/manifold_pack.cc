@@ -28,14 +28,12 @@ static_assert(offsetof(ContactTwist, most_spinning) == simd::kMostSpinning * siz
 static_assert(sizeof(TwistImpulse) == simd::kTwistRows * sizeof(float));
 static_assert(Manifold::kTwistRows == simd::kTwistRows);
 
-const simd::ContactBody kNobody{};
-
 /// The directions of a block: a point with friction has two rows or more.
 static_assert(simd::kDirectionLines <= 2 * 2);
 size_t DirectionsOf(const simd::PairBlock& block) { return 2 * size_t{block.x}; }
 
 const Manifold& ManifoldOf(const BlockPacker& packer, int block, int lane) {
-  return packer.problem.manifolds[packer.plan.pair(block, lane).manifold];
+  return packer.problem.manifolds[packer.plan.pair(block, lane).index];
 }
 
 /// The impulses of a manifold, with those lines of the cache that only the last one reaches.
@@ -52,7 +50,7 @@ void PrefetchImpulses(std::span<const ContactImpulse> impulses, const Manifold& 
 template <class Function>
 void ForManifolds(const BlockPacker& packer, int block, const Function& function) {
   if (block >= static_cast<int>(packer.plan.blocks().size())) return;
-  if (packer.plan.pair(block, 0).manifold == Pair::kNoManifold) return;
+  if (packer.plan.pair(block, 0).source != RowSource::kManifold) return;
   for (int lane = 0; lane < packer.plan.blocks()[block].lanes; ++lane) {
     function(ManifoldOf(packer, block, lane));
   }
@@ -103,12 +101,9 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
     // unused lanes do what the first one does
     const int used = lane < block.lanes ? lane : 0;
     const Pair& pair = packer.plan.pair(index, used);
-    const Manifold& manifold = packer.problem.manifolds[pair.manifold];
-    const auto body = [&packer](int i) {
-      return i == kWorld ? &kNobody : &packer.contact_bodies[i];
-    };
-    lanes.a[lane] = body(manifold.body_a);
-    lanes.b[lane] = body(manifold.body_b);
+    const Manifold& manifold = packer.problem.manifolds[pair.index];
+    lanes.a[lane] = packer.contact_body(manifold.body_a);
+    lanes.b[lane] = packer.contact_body(manifold.body_b);
     lanes.second_moves[lane] = pair.a != manifold.body_a;
     lanes.point[lane] = packer.problem.points[manifold.first_point].arm_a;
     lanes.start[lane] = &start.points[manifold.first_point].normal;

@@ -5,8 +5,8 @@
 
 namespace cairn {
 
-/// The numbers of a body that kernels make contact rows with. @p motion: instead of its own, or
-/// nullptr.
+/// The numbers of a body that kernels make rows of joints and contacts with. @p motion: instead of
+/// its own, or nullptr.
 simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
                                 const ContactMotion* motion);
 

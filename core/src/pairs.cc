@@ -83,7 +83,7 @@ int PairFinder::Look(int a, int b, bool contact) {
   for (size_t at = Hash(a, b, contact) & mask;; at = (at + 1) & mask) {
     if (table_[at] == 0) {
       list_->pairs.push_back(
-          {a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0, Pair::kNoManifold});
+          {a, b, 0, 0, 0, 0, simd::PairForm::kJoint, contact, 0, RowSource::kRows, 0});
       table_[at] = static_cast<int>(list_->pairs.size());
       return table_[at] - 1;
     }
@@ -107,7 +107,7 @@ int PairFinder::PairOf(const RowLaw& law, size_t index) {
   return Look(a, b, contact);
 }
 
-bool PairFinder::Find(std::span<const RowLaw> laws, std::span<const Manifold> manifolds,
+bool PairFinder::Find(std::span<const RowLaw> laws, const ContactProblem& problem,
                       const MovableBodies& movable, ShapeTable* shapes, PairList* list) {
   laws_ = laws;
   movable_ = &movable;
@@ -137,8 +137,51 @@ bool PairFinder::Find(std::span<const RowLaw> laws, std::span<const Manifold> ma
   }
   HandOutRows();
   FindShapes(shapes);
-  AddManifolds(manifolds, shapes);
+  AddJoints(problem.joints, shapes);
+  AddManifolds(problem.manifolds, shapes);
   return true;
+}
+
+int PairFinder::ShapeOf(const Joint& joint, ShapeTable* shapes) {
+  scratch_.clear();
+  for (int i = 0; i < joint.rows; ++i) {
+    scratch_.push_back({.bound = joint.is_bounded(i) ? simd::RowBound::kOwn : simd::RowBound::kFree,
+                        .soft = joint.soft,
+                        .angular = joint.is_angular(i),
+                        .max_sweeps = joint.max_sweeps});
+  }
+  return shapes->Intern(scratch_, RowSource::kJoint);
+}
+
+void PairFinder::AddJoints(std::span<const Joint> joints, ShapeTable* shapes) {
+  const Joint* last = nullptr;
+  int shape = 0;
+  for (size_t i = 0; i < joints.size(); ++i) {
+    const Joint& joint = joints[i];
+    if (last == nullptr || !HasLawOf(joint, *last)) shape = ShapeOf(joint, shapes);
+    last = &joint;
+    Add({.a = joint.body_a,
+         .b = joint.body_b,
+         .row_a = joint.body_a,
+         .row_b = joint.body_b,
+         .first = 0,
+         .rows = joint.rows,
+         .form = simd::PairForm::kJoint,
+         .contact = false,
+         .shape = shape,
+         .source = RowSource::kJoint,
+         .index = static_cast<int>(i)},
+        joint.opposite);
+  }
+}
+
+void PairFinder::Add(const Pair& added, bool opposite) {
+  const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
+  Pair& pair = list_->pairs.emplace_back(added);
+  if (!moves(pair.a)) pair.a = kWorld;
+  if (!moves(pair.b)) pair.b = kWorld;
+  if (pair.a == kWorld) std::swap(pair.a, pair.b);
+  if (pair.b == kWorld || opposite) pair.form = FormOf(*movable_, pair);
 }
 
 int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
@@ -160,30 +203,24 @@ int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
 }
 
 void PairFinder::AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes) {
-  const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
   const Manifold* last = nullptr;
   int shape = 0;
   for (size_t i = 0; i < manifolds.size(); ++i) {
     const Manifold& manifold = manifolds[i];
-    const bool alike = last != nullptr && last->points == manifold.points &&
-                       last->tangents == manifold.tangents && last->soft == manifold.soft &&
-                       last->twists == manifold.twists && last->max_sweeps == manifold.max_sweeps;
-    if (!alike) shape = ShapeOf(manifold, shapes);
+    if (last == nullptr || !HasLawOf(manifold, *last)) shape = ShapeOf(manifold, shapes);
     last = &manifold;
-
-    Pair& pair = list_->pairs.emplace_back();
-    pair = {.a = moves(manifold.body_a) ? manifold.body_a : kWorld,
-            .b = moves(manifold.body_b) ? manifold.body_b : kWorld,
-            .row_a = manifold.body_a,
-            .row_b = manifold.body_b,
-            .first = 0,
-            .rows = manifold.rows(),
-            .form = simd::PairForm::kJoint,
-            .contact = true,
-            .shape = shape,
-            .manifold = static_cast<int>(i)};
-    if (pair.a == kWorld) std::swap(pair.a, pair.b);
-    pair.form = FormOf(*movable_, pair);
+    Add({.a = manifold.body_a,
+         .b = manifold.body_b,
+         .row_a = manifold.body_a,
+         .row_b = manifold.body_b,
+         .first = 0,
+         .rows = manifold.rows(),
+         .form = simd::PairForm::kJoint,
+         .contact = true,
+         .shape = shape,
+         .source = RowSource::kManifold,
+         .index = static_cast<int>(i)},
+        true);
   }
 }
 

@@ -36,7 +36,7 @@ bool Shares(const simd::PairBlock& block, int a, int b) {
 bool Plan::Make(const ContactProblem& problem, std::span<const RowLaw> laws,
                 const MovableBodies& movable) {
   const std::span<const Body> bodies = problem.bodies;
-  if (!pair_finder_.Find(laws, problem.manifolds, movable, &shapes_, &list_)) return false;
+  if (!pair_finder_.Find(laws, problem, movable, &shapes_, &list_)) return false;
   colouring_.Update(bodies, list_.pairs);
   FindIslands(static_cast<int>(bodies.size()));
   FindGroups();

@@ -51,7 +51,7 @@ class Plan {
  public:
   /// @p laws: of all rows, each valid by ReadLaw(). False if a parent is not valid, by Validate();
   /// the plan is then of no use.
-  /// @pre bodies and manifolds of the problem are valid
+  /// @pre bodies, joints and manifolds of the problem are valid
   [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const RowLaw> laws,
                           const MovableBodies& movable);
 
@@ -63,7 +63,7 @@ class Plan {
   int island_of(int block, int lane) const {
     return island_of_pair_[pair_of_lane_[block * simd::kLanes + lane]];
   }
-  /// Problem rows of a pair. @pre it is not a manifold
+  /// Problem rows of a pair. @pre it is made of rows
   std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
 
   std::span<const Group> groups() const { return groups_; }

@@ -17,6 +17,9 @@ void Recording::Assign(const ContactProblem& problem, const Impulses& start) {
   point_impulses.assign(start.points.begin(), start.points.end());
   twists.assign(problem.twists.begin(), problem.twists.end());
   twist_impulses.assign(start.twists.begin(), start.twists.end());
+  joints.assign(problem.joints.begin(), problem.joints.end());
+  joint_rows.assign(problem.joint_rows.begin(), problem.joint_rows.end());
+  joint_impulses.assign(start.joint_rows.begin(), start.joint_rows.end());
 }
 
 Status WriteOutRows(const Recording& recording, Recording* rows) {
@@ -24,7 +27,7 @@ Status WriteOutRows(const Recording& recording, Recording* rows) {
   const Impulses start = copy.impulses();
   const ContactProblem problem = copy.problem();
   if (const Report checked = Validate(problem, start); !checked.ok()) return checked.status;
-  if (!copy.manifolds.empty()) {
+  if (!copy.manifolds.empty() || !copy.joints.empty()) {
     ContactExpansion expansion(problem, start);
     const std::vector<Row> all(expansion.problem().rows.begin(), expansion.problem().rows.end());
     const std::vector<double> impulses(expansion.impulses().begin(), expansion.impulses().end());
@@ -36,6 +39,9 @@ Status WriteOutRows(const Recording& recording, Recording* rows) {
     copy.twists.clear();
     copy.twist_impulses.clear();
     copy.motions.clear();
+    copy.joints.clear();
+    copy.joint_rows.clear();
+    copy.joint_impulses.clear();
   }
   *rows = std::move(copy);
   return Status::kOk;

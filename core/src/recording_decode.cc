@@ -27,6 +27,7 @@ class Reader {
   void F64(double& value) { value = std::bit_cast<double>(Take(8)); }
   void F32(float& value) { value = std::bit_cast<float>(static_cast<std::uint32_t>(Take(4))); }
   void I32(int& value) { value = static_cast<std::int32_t>(U32()); }
+  void U32(std::uint32_t& value) { value = U32(); }
   void I64(std::int64_t& value) { value = static_cast<std::int64_t>(Take(8)); }
   void U64(std::uint64_t& value) { value = Take(8); }
   void U8(std::uint8_t& value) { value = static_cast<std::uint8_t>(Take(1)); }
@@ -91,6 +92,8 @@ class Layout {
   std::uint32_t count_ = 0;
   std::uint64_t next_ = 0;  ///< where the next section begins
   int first_free_ = 0;      ///< sections come in their order
+  std::uint32_t version_ = kRecordingVersion;
+  int known_ = kSections;  ///< sections of the version: the first ones
   std::array<std::optional<Entry>, kSections> sections_;
 };
 
@@ -108,13 +111,13 @@ RecordingStatus Layout::ReadHeader() {
   }
   if (file_.size() < kHeaderBytes) return TooShort(file_.size(), kHeaderBytes);
   Reader reader(file_.subspan(kRecordingMagic.size()));
-  const std::uint32_t version = reader.U32();
-  if (version != kRecordingVersion) {
-    return Fault(RecordingFault::kUnknownVersion, "version " + Text(version) +
-                                                      " of recordings is not known; this library "
-                                                      "reads version " +
-                                                      Text(kRecordingVersion));
+  version_ = reader.U32();
+  if (version_ < kOldestVersion || version_ > kRecordingVersion) {
+    return Fault(RecordingFault::kUnknownVersion,
+                 "version " + Text(version_) + " of recordings is not known; this library reads " +
+                     Text(kOldestVersion) + " to " + Text(kRecordingVersion));
   }
+  if (version_ == kOldestVersion) known_ = kOldestSections;
   count_ = reader.U32();
   const std::uint64_t length = reader.U64();
   const std::uint32_t checksum = reader.U32();
@@ -177,10 +180,11 @@ RecordingStatus Layout::ReadEntry(Bytes bytes) {
     return Fault(RecordingFault::kChecksum,
                  "the checksum of section " + name + " is wrong: the file was altered");
   }
-  const auto known = std::find(kSectionNames.begin(), kSectionNames.end(), name);
-  if (known == kSectionNames.end()) {
+  const auto end = kSectionNames.begin() + known_;
+  const auto known = std::find(kSectionNames.begin(), end, name);
+  if (known == end) {
     return Fault(RecordingFault::kBadLayout,
-                 "section " + name + " is not known in version " + Text(kRecordingVersion));
+                 "section " + name + " is not known in version " + Text(version_));
   }
   const auto section = static_cast<int>(known - kSectionNames.begin());
   if (section < first_free_) {
@@ -202,7 +206,7 @@ RecordingStatus Layout::Read() {
     return Fault(RecordingFault::kBadLayout,
                  Text(file_.size() - next_) + " bytes of the file are in no section");
   }
-  for (int i = 0; i < kSections; ++i) {
+  for (int i = 0; i < known_; ++i) {
     if (sections_[i] || i == kReplay) continue;
     return Fault(RecordingFault::kBadLayout,
                  "section " + std::string(kSectionNames[i]) + " is missing");
@@ -217,7 +221,8 @@ class Contents {
 
   template <class T>
   void Read(Section section, std::vector<T>* entries) {
-    if (!CheckSize(section, EntrySize<T>())) return;
+    // the version knew none
+    if (!layout_.section(section) || !CheckSize(section, EntrySize<T>())) return;
     const Entry& entry = *layout_.section(section);
     entries->resize(entry.count);
     Reader reader(entry.bytes);
@@ -248,7 +253,8 @@ class Contents {
     }
   }
   void Expect(Section section, std::size_t expected) {
-    if (!status_.ok() || layout_.section(section)->count == expected) return;
+    if (!status_.ok() || !layout_.section(section)) return;
+    if (layout_.section(section)->count == expected) return;
     status_ =
         Fault(RecordingFault::kBadLayout, "section " + std::string(kSectionNames[section]) +
                                               " has " + Text(layout_.section(section)->count) +
@@ -299,11 +305,15 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   contents.Read(kPointImpulses, &read.point_impulses);
   contents.Read(kTwists, &read.twists);
   contents.Read(kTwistImpulses, &read.twist_impulses);
+  contents.Read(kJoints, &read.joints);
+  contents.Read(kJointRows, &read.joint_rows);
+  contents.Read(kJointImpulses, &read.joint_impulses);
   contents.Expect(kMotions, read.motions.empty() ? 0 : read.bodies.size());
   contents.Expect(kRowImpulses, read.rows.size());
   contents.Expect(kPointImpulses, read.points.size());
   contents.Expect(kTwists, read.twists.empty() ? 0 : read.points.size());
   contents.Expect(kTwistImpulses, read.twists.size());
+  contents.Expect(kJointImpulses, read.joint_rows.size());
   if (!contents.status().ok()) return contents.status();
   if (source.size() > kMostSourceBytes) {
     return Fault(RecordingFault::kBadLayout,

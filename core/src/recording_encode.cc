@@ -97,8 +97,9 @@ RecordingStatus Unfit(const char* what) { return {RecordingFault::kBadValue, wha
 /// What a reader would refuse.
 RecordingStatus Check(const Recording& recording) {
   constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<int>::max());
-  for (const std::size_t count : {recording.bodies.size(), recording.rows.size(),
-                                  recording.manifolds.size(), recording.points.size()}) {
+  for (const std::size_t count :
+       {recording.bodies.size(), recording.rows.size(), recording.manifolds.size(),
+        recording.points.size(), recording.joints.size(), recording.joint_rows.size()}) {
     if (count > kMost)
       return Unfit("the problem has more bodies, rows or points than an int counts");
   }
@@ -111,6 +112,9 @@ RecordingStatus Check(const Recording& recording) {
   }
   if (recording.twist_impulses.size() != recording.twists.size()) {
     return Unfit("the start does not have one impulse per twist");
+  }
+  if (recording.joint_impulses.size() != recording.joint_rows.size()) {
+    return Unfit("the start does not have one impulse per row of a joint");
   }
   if (!recording.motions.empty() && recording.motions.size() != recording.bodies.size()) {
     return Unfit("there is neither one motion per body nor none");
@@ -137,6 +141,9 @@ void AddSections(const Recording& recording, SectionWriter* to) {
   to->Add(kPointImpulses, std::span(recording.point_impulses));
   to->Add(kTwists, std::span(recording.twists));
   to->Add(kTwistImpulses, std::span(recording.twist_impulses));
+  to->Add(kJoints, std::span(recording.joints));
+  to->Add(kJointRows, std::span(recording.joint_rows));
+  to->Add(kJointImpulses, std::span(recording.joint_impulses));
 }
 
 }  // namespace

@@ -50,6 +50,33 @@ void Visit(Row& row, Io& io) {
 }
 
 template <class Io>
+void Visit(Joint& joint, Io& io) {
+  io.I32(joint.body_a);
+  io.I32(joint.body_b);
+  io.I32(joint.first_row);
+  io.I32(joint.rows);
+  io.U32(joint.bounded);
+  io.U32(joint.angular);
+  io.F32(joint.damping);
+  io.I32(joint.max_sweeps);
+  io.Flag(joint.soft);
+  io.Flag(joint.opposite);
+  io.Zeros(2);
+}
+
+template <class Io>
+void Visit(JointRow& row, Io& io) {
+  Visit(row.linear_a, io);
+  io.F32(row.target);
+  Visit(row.angular_a, io);
+  io.F32(row.compliance);
+  Visit(row.linear_b, io);
+  io.F32(row.lo);
+  Visit(row.angular_b, io);
+  io.F32(row.hi);
+}
+
+template <class Io>
 void Visit(Manifold& manifold, Io& io) {
   io.I32(manifold.body_a);
   io.I32(manifold.body_b);
@@ -113,6 +140,11 @@ void Visit(ContactLaw& law, Io& io) {
 template <class Io>
 void Visit(double& value, Io& io) {
   io.F64(value);
+}
+
+template <class Io>
+void Visit(float& value, Io& io) {
+  io.F32(value);
 }
 
 template <class Io>

@@ -11,7 +11,8 @@
 
 namespace cairn {
 
-inline constexpr std::uint32_t kRecordingVersion = 1;
+/// Written, and the oldest that is read: it knew no joints.
+inline constexpr std::uint32_t kRecordingVersion = 2, kOldestVersion = 1;
 /// No text begins like that, and whatever rewrites line ends destroys it.
 inline constexpr std::array<unsigned char, 8> kRecordingMagic = {0x89, 'C',  'R',  'N',
                                                                  '\r', '\n', 0x1a, '\n'};
@@ -36,12 +37,17 @@ enum Section {
   kPointImpulses,
   kTwists,
   kTwistImpulses,
+  kJoints,
+  kJointRows,
+  kJointImpulses,
   kSections
 };
+/// Of kOldestVersion.
+inline constexpr int kOldestSections = kJoints;
 
 inline constexpr std::array<std::string_view, kSections> kSectionNames = {
-    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN",
-    "ROWS", "RIMP", "MANI", "PNTS", "PIMP", "TWST", "TIMP"};
+    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP",
+    "MANI", "PNTS", "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP"};
 
 /// Adds up the bytes of fields.
 class FieldCounter {
@@ -50,6 +56,7 @@ class FieldCounter {
   void F32(const float&) { bytes_ += 4; }
   void I32(const int&) { bytes_ += 4; }
   void I64(const std::int64_t&) { bytes_ += 8; }
+  void U32(const std::uint32_t&) { bytes_ += 4; }
   void U64(const std::uint64_t&) { bytes_ += 8; }
   void U8(const std::uint8_t&) { bytes_ += 1; }
   void Flag(const bool&) { bytes_ += 1; }

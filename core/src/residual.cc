@@ -62,14 +62,13 @@ Report MeasureRows(const ContactProblem& problem, std::span<const double> impuls
 Report Measure(const ContactProblem& problem, std::span<const double> impulses) {
   std::vector<double> rows(impulses.begin(), impulses.end());
   std::vector<ContactImpulse> points(problem.points.size());
-  const size_t contact_rows = rows.size() - std::min(rows.size(), problem.rows.size());
   std::vector<TwistImpulse> twists(problem.twists.size());
-  Impulses given{.rows = rows, .points = points, .twists = twists};
-  if (!problem.manifolds.empty()) given.rows = given.rows.first(rows.size() - contact_rows);
+  std::vector<float> joint_rows(problem.joint_rows.size());
+  Impulses given{.rows = rows, .points = points, .twists = twists, .joint_rows = joint_rows};
+  const bool rows_only = problem.manifolds.empty() && problem.joints.empty();
+  if (!rows_only) given.rows = given.rows.first(std::min(rows.size(), problem.rows.size()));
   Report report = Validate(problem, given);
-  if (!report.ok() || problem.manifolds.empty()) {
-    return report.ok() ? MeasureRows(problem, impulses) : report;
-  }
+  if (!report.ok() || rows_only) return report.ok() ? MeasureRows(problem, impulses) : report;
 
   const ContactExpansion expansion(problem, given);
   if (expansion.problem().rows.size() == impulses.size()) {

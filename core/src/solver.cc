@@ -18,25 +18,18 @@
 namespace cairn {
 namespace {
 
-/// kAutomatic: below this, floats cannot tell whether a row is close enough to its law [m/s].
-constexpr double kFinestFloatTolerance = 1e-5;
-
 /// Which of two reasons says more about why the whole did not get further.
 StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
 
 bool InBlocks(const ContactProblem& problem, const Settings& settings) {
-  // manifolds become blocks with the step length of Gauss-Seidel only
-  if (!problem.manifolds.empty() && OmegaOf(settings) != 1) return false;
-  if (settings.order == SweepOrder::kAutomatic) {
-    return settings.tolerance == 0 || settings.tolerance >= kFinestFloatTolerance;
-  }
-  return settings.order == SweepOrder::kColoured;
+  // joints and manifolds become blocks with the step length of Gauss-Seidel only
+  const bool rows_only = problem.joints.empty() && problem.manifolds.empty();
+  return (rows_only || OmegaOf(settings) == 1) && SweepsInFloats(settings);
 }
 
 BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
   if (settings.replay != nullptr) return BudgetMeter(*settings.replay, prices);
-  const double rows = static_cast<double>(problem.rows.size()) + ContactRows(problem);
-  return BudgetMeter(settings.budget, rows, prices);
+  return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices);
 }
 
 /// Adds up what was done on the islands.
@@ -53,6 +46,15 @@ void SumUp(Report* report) {
 }
 
 }  // namespace
+
+bool SweepsInFloats(const Settings& settings) {
+  // below this, floats cannot tell whether a row is close enough to its law [m/s]
+  constexpr double kFinestTolerance = 1e-5;
+  if (settings.order == SweepOrder::kAutomatic) {
+    return settings.tolerance == 0 || settings.tolerance >= kFinestTolerance;
+  }
+  return settings.order == SweepOrder::kColoured;
+}
 
 struct Solver::Impl {
   void SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
@@ -71,7 +73,7 @@ struct Solver::Impl {
 void Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
                                  const Impulses& impulses, std::span<Velocity> velocities,
                                  Report* report) {
-  if (problem.manifolds.empty()) {
+  if (problem.manifolds.empty() && problem.joints.empty()) {
     return SolveRows(problem, meter, impulses.rows, velocities, report);
   }
   ContactExpansion expansion(problem, impulses);
@@ -203,6 +205,7 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
     report->bad_row = checked.bad_row;
     report->bad_body = checked.bad_body;
     report->bad_manifold = checked.bad_manifold;
+    report->bad_joint = checked.bad_joint;
     if (!report->ok()) return;
     impl_->SolveInDouble(problem, &meter, impulses, velocities, report);
   }

@@ -97,9 +97,35 @@ Status CheckPoints(const ContactProblem& problem, const Manifold& manifold, cons
   return Status::kOk;
 }
 
+/// The rows of a joint, and where they start.
+Status CheckJointRows(const ContactProblem& problem, const Joint& joint, const Impulses& start) {
+  for (int i = 0; i < joint.rows; ++i) {
+    const JointRow& row = problem.joint_rows[joint.first_row + i];
+    float zero = 0 * row.target + 0 * start.joint_rows[joint.first_row + i];
+    if (joint.soft) zero += 0 * row.compliance;
+    for (int k = 0; k < 3; ++k) {
+      zero += 0 * row.linear_a[k] + 0 * row.angular_a[k];
+      zero += 0 * row.linear_b[k] + 0 * row.angular_b[k];
+    }
+    if (zero != 0) return Status::kNotFinite;
+    if (joint.soft && row.compliance < 0) return Status::kBadCompliance;
+    if (!joint.is_bounded(i)) continue;
+    if (std::isnan(row.lo) || std::isnan(row.hi)) return Status::kNotFinite;
+    const bool bounds = row.lo <= row.hi && row.lo < kInfinity && row.hi > -kInfinity;
+    if (!bounds) return Status::kBadBounds;
+  }
+  return Status::kOk;
+}
+
 constexpr int kMostThreads = 1024;
 
 bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
+
+/// They are bodies of the problem, and not the same.
+bool JoinsTwo(const ContactProblem& problem, int a, int b) {
+  const int bodies = static_cast<int>(problem.bodies.size());
+  return a != b && Inside(a, kWorld, bodies - 1) && Inside(b, kWorld, bodies - 1);
+}
 
 }  // namespace
 
@@ -159,16 +185,26 @@ bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses) {
   const bool motions = problem.motions.empty() || problem.motions.size() == problem.bodies.size();
   const bool twists = impulses.twists.size() == problem.twists.size() &&
                       (problem.twists.empty() || problem.twists.size() == problem.points.size());
+  const bool joints =
+      problem.joints.empty() || impulses.joint_rows.size() == problem.joint_rows.size();
+  if (!joints || (!problem.joints.empty() && !motions)) return false;
   return problem.manifolds.empty() ||
          (motions && twists && impulses.points.size() == problem.points.size());
 }
 
+Status ValidateJoint(const ContactProblem& problem, int index) {
+  const Joint& joint = problem.joints[index];
+  if (!JoinsTwo(problem, joint.body_a, joint.body_b)) return Status::kNoSuchBody;
+  const bool rows = Inside(joint.rows, 1, Joint::kMostRows) && joint.first_row >= 0;
+  const auto end = static_cast<std::int64_t>(joint.first_row) + joint.rows;
+  const bool there = end <= static_cast<std::int64_t>(problem.joint_rows.size());
+  if (!rows || !there) return Status::kWrongSize;
+  return std::isfinite(joint.damping) ? Status::kOk : Status::kNotFinite;
+}
+
 Status ValidateManifold(const ContactProblem& problem, int index) {
   const Manifold& manifold = problem.manifolds[index];
-  const int bodies = static_cast<int>(problem.bodies.size());
-  const auto known = [bodies](int body) { return body >= kWorld && body < bodies; };
-  if (!known(manifold.body_a) || !known(manifold.body_b)) return Status::kNoSuchBody;
-  if (manifold.body_a == manifold.body_b) return Status::kNoSuchBody;
+  if (!JoinsTwo(problem, manifold.body_a, manifold.body_b)) return Status::kNoSuchBody;
 
   const bool points = Inside(manifold.points, 1, Manifold::kMostPoints) &&
                       Inside(manifold.tangents, 0, 2) && manifold.first_point >= 0;
@@ -200,12 +236,17 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
     return finite ? CheckBody(problem.bodies[i]) : Status::kNotFinite;
   };
   const auto row = [&](int i) { return ValidateRow(problem, i, impulses.rows[i]); };
+  const auto joint = [&](int i) {
+    const Status status = ValidateJoint(problem, i);
+    return status == Status::kOk ? CheckJointRows(problem, problem.joints[i], impulses) : status;
+  };
   const auto manifold = [&](int i) {
     const Status status = ValidateManifold(problem, i);
     return status == Status::kOk ? CheckPoints(problem, problem.manifolds[i], impulses) : status;
   };
   if (refused(problem.bodies.size(), body, &report.bad_body)) return report;
   if (refused(problem.rows.size(), row, &report.bad_row)) return report;
+  if (refused(problem.joints.size(), joint, &report.bad_joint)) return report;
   const float bounce = problem.contact_law.bounce_speed;
   if (!(bounce >= 0)) report.status = Status::kNotFinite;
   if (report.ok()) refused(problem.manifolds.size(), manifold, &report.bad_manifold);

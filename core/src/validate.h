@@ -10,8 +10,8 @@
 namespace cairn {
 
 /// The one place where input is judged. Everything behind it may rely on what it checks.
-/// On a status other than kOk, bad_row, bad_body or bad_manifold of the report names the first
-/// offender.
+/// On a status other than kOk, bad_row, bad_body, bad_manifold or bad_joint of the report names the
+/// first offender.
 Report Validate(const ContactProblem& problem, const Impulses& impulses);
 
 /// Starts, and motions, belong to the problem.
@@ -19,6 +19,9 @@ bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses);
 
 /// What a manifold says of itself; not its points.
 Status ValidateManifold(const ContactProblem& problem, int manifold);
+
+/// What a joint says of itself; not its rows.
+Status ValidateJoint(const ContactProblem& problem, int joint);
 
 /// One row of it. @pre the bodies are valid
 Status ValidateRow(const ContactProblem& problem, int row, double impulse);

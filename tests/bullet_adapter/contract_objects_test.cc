@@ -226,8 +226,7 @@ TEST(ObjectContract, TheProblemAndItsImpulsesAreThoseOfTheReport) {
   world.Step(5);
   const ContactProblem problem = solver.problem();
   ASSERT_GT(problem.manifolds.size(), 0u);
-  ASSERT_EQ(problem.rows.size() + static_cast<size_t>(ContactRows(problem)),
-            solver.impulses().size());
+  ASSERT_EQ(AllRows(problem), solver.impulses().size());
   const Report measured = Measure(solver.problem(), solver.impulses());
   EXPECT_NEAR(measured.residual_max, solver.report().residual_max, 1e-4);
 }

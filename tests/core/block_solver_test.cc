@@ -239,9 +239,9 @@ void ExpectIslandsAlone(const std::vector<Scene>& parts, const Settings& setting
     const auto v = together.v.begin() + static_cast<std::ptrdiff_t>(bodies);
     rows += parts[i].rows.size();
     bodies += parts[i].bodies.size();
-    const Solution part{.report = {},
-                        .x = {x, x + static_cast<std::ptrdiff_t>(parts[i].rows.size())},
-                        .v = {v, v + static_cast<std::ptrdiff_t>(parts[i].bodies.size())}};
+    Solution part;
+    part.x.assign(x, x + static_cast<std::ptrdiff_t>(parts[i].rows.size()));
+    part.v.assign(v, v + static_cast<std::ptrdiff_t>(parts[i].bodies.size()));
     EXPECT_TRUE(test::SameBits(alone, part));
   }
 }

@@ -90,6 +90,41 @@ ManifoldScene RollingManifolds(int bodies, int manifolds, std::uint64_t seed) {
   return scene;
 }
 
+void AddJoints(int joints, std::uint64_t seed, ManifoldScene* scene) {
+  Random random(seed + 2000);
+  const auto number = [&random](double lo, double hi) {
+    return static_cast<float>(random.Uniform(lo, hi));
+  };
+  const int bodies = static_cast<int>(scene->bodies.size());
+  for (int i = 0; i < joints; ++i) {
+    Joint joint{.body_a = random.Index(bodies), .body_b = random.Index(bodies)};
+    if (random.Index(6) == 0 || joint.body_a == joint.body_b) joint.body_b = kWorld;
+    if (random.Index(2) == 0) std::swap(joint.body_a, joint.body_b);
+    joint.first_row = static_cast<int>(scene->joint_rows.size());
+    joint.rows = 1 + random.Index(8);
+    joint.soft = random.Index(3) == 0;
+    joint.opposite = random.Index(2) == 0;
+    joint.damping = random.Index(3) == 0 ? number(0, 1) : 1;
+    for (int k = 0; k < joint.rows; ++k) {
+      JointRow& row = scene->joint_rows.emplace_back();
+      const bool turns = random.Index(3) == 0;
+      if (turns) joint.angular |= 1u << k;
+      if (random.Index(3) == 0) joint.bounded |= 1u << k;
+      const Vector3d push = turns ? Vector3d(0, 0, 0) : random.Direction();
+      Put(push, row.linear_a);
+      Put(joint.opposite || turns ? Vector3d(-push) : random.Direction(), row.linear_b);
+      Put(random.Vector(1), row.angular_a);
+      Put(random.Vector(1), row.angular_b);
+      row.target = number(-0.5, 0.5);
+      row.compliance = number(0, 0.1);
+      row.lo = number(-0.5, 0.1);
+      row.hi = random.Index(3) == 0 ? std::numeric_limits<float>::infinity() : number(0.1, 0.5);
+      scene->joint_impulses.push_back(number(-0.5, 0.5));
+    }
+    scene->joints.push_back(joint);
+  }
+}
+
 ManifoldScene ManifoldTower(int boxes) {
   ManifoldScene scene;
   for (int i = 0; i < boxes; ++i) {

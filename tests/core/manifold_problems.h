@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts as manifolds.
+// Contacts as manifolds, and joints.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace cairn::test {
 
-/// Owns what a ContactProblem with manifolds points to, and the impulses of its points.
+/// Owns what a ContactProblem with manifolds and joints points to, and the impulses of its points.
 struct ManifoldScene {
   std::vector<Body> bodies;
   std::vector<Row> rows;
@@ -22,11 +22,14 @@ struct ManifoldScene {
   std::vector<ContactTwist> twists;  ///< one per point, or none
   std::vector<ContactImpulse> point_impulses;
   std::vector<TwistImpulse> twist_impulses;
+  std::vector<Joint> joints;
+  std::vector<JointRow> joint_rows;
+  std::vector<float> joint_impulses;
 
-  ContactProblem problem() const { return {bodies, rows, manifolds, points, law, motions, twists}; }
-  Impulses impulses() {
-    return {.rows = row_impulses, .points = point_impulses, .twists = twist_impulses};
+  ContactProblem problem() const {
+    return {bodies, rows, manifolds, points, law, motions, twists, joints, joint_rows};
   }
+  Impulses impulses() { return {row_impulses, point_impulses, twist_impulses, joint_impulses}; }
 };
 
 /// Bodies of all kinds, some of them unmoved but moving, and manifolds of one to four points in all
@@ -34,6 +37,9 @@ struct ManifoldScene {
 ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed);
 /// The same, of which half resist turning.
 ManifoldScene RollingManifolds(int bodies, int manifolds, std::uint64_t seed);
+/// Adds joints of one to eight rows, bounded and soft ones among them, with and without opposite
+/// forces, each with start impulses of its own.
+void AddJoints(int joints, std::uint64_t seed, ManifoldScene* scene);
 /// Boxes of 1 m and 1 kg on each other and the ground, four contact points in each face.
 ManifoldScene ManifoldTower(int boxes);
 

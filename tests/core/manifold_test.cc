@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Manifolds are their rows: the same numbers, the same answers, on every target.
+// Manifolds and joints are their rows: the same numbers, the same answers, on every target.
 #include "cairn/manifold.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +26,16 @@ struct Solved {
   std::vector<double> rows;
   std::vector<ContactImpulse> points;
   std::vector<TwistImpulse> twists;
+  std::vector<float> joint_rows;
   std::vector<Velocity> velocities;
 };
 
-/// Seeds stand for scenes; odd ones roll.
+/// Seeds stand for scenes; odd ones roll, and half of both have joints, too.
 ManifoldScene AnyManifolds(int bodies, int manifolds, std::uint64_t seed) {
-  return seed % 2 == 1 ? test::RollingManifolds(bodies, manifolds, seed)
-                       : test::RandomManifolds(bodies, manifolds, seed);
+  ManifoldScene scene = seed % 2 == 1 ? test::RollingManifolds(bodies, manifolds, seed)
+                                      : test::RandomManifolds(bodies, manifolds, seed);
+  if (seed % 4 >= 2) test::AddJoints(bodies / 4, seed, &scene);
+  return scene;
 }
 
 Solved Solve(Solver* solver, ManifoldScene scene) {
@@ -42,6 +45,7 @@ Solved Solve(Solver* solver, ManifoldScene scene) {
   solved.rows = scene.row_impulses;
   solved.points = scene.point_impulses;
   solved.twists = scene.twist_impulses;
+  solved.joint_rows = scene.joint_impulses;
   return solved;
 }
 
@@ -98,7 +102,8 @@ std::vector<double> LinesOf(const BlockFrame& frame, const Row& row, const Pair&
   lines.push_back(d > 0 ? 1 / d : 1);
   if (shape.soft) lines.push_back(row.compliance);
   if (shape.parent >= 0) lines.push_back(row.friction);
-  if (shape.bound == simd::RowBound::kCutFriction) lines.insert(lines.end(), {row.lo, row.hi});
+  if (shape.bound == simd::RowBound::kCutFriction || shape.bound == simd::RowBound::kOwn)
+    lines.insert(lines.end(), {row.lo, row.hi});
   return lines;
 }
 
@@ -107,10 +112,14 @@ TEST(Manifold, HasTheLinesOfItsRows) {
     ManifoldScene scene = AnyManifolds(20, 120, seed);
     std::vector<double> start;
     const test::Scene rows = RowsOf(scene, &start);
-    std::vector<int> first_row;
+    std::vector<int> first_of_joint, first_of_manifold;
     int next = 0;
+    for (const Joint& joint : scene.joints) {
+      first_of_joint.push_back(next);
+      next += joint.rows;
+    }
     for (const Manifold& manifold : scene.manifolds) {
-      first_row.push_back(next);
+      first_of_manifold.push_back(next);
       next += manifold.rows();
     }
     ASSERT_EQ(next, static_cast<int>(rows.rows.size()));
@@ -124,10 +133,12 @@ TEST(Manifold, HasTheLinesOfItsRows) {
       const simd::PairBlock& block = plan.blocks()[b];
       for (int lane = 0; lane < block.lanes; ++lane, ++lanes) {
         const Pair& pair = plan.pair(b, lane);
+        const bool joint = pair.source == RowSource::kJoint;
+        const int first = (joint ? first_of_joint : first_of_manifold)[pair.index];
         const simd::Line* line = &frame.blocks().data[block.data] + simd::PairLines(block.form);
         std::vector<double> x;
         for (int i = 0; i < block.row_count; ++i) {
-          const int index = first_row[pair.manifold] + i;
+          const int index = first + i;
           const Row& row = rows.rows[index];
           for (const double expected : LinesOf(frame, row, pair, block.rows[i])) {
             const double tolerance = kFloat * (1 + std::abs(expected));
@@ -136,16 +147,14 @@ TEST(Manifold, HasTheLinesOfItsRows) {
             ASSERT_NEAR(actual, expected, tolerance) << seed << " row " << i;
           }
           // the start, inside its bounds
-          const double most = row.parent == kNoRow
-                                  ? kInfinity
-                                  : row.friction * x[row.parent - first_row[pair.manifold]];
-          x.push_back(std::clamp(start[index], std::max(row.parent == kNoRow ? 0 : -most, row.lo),
-                                 std::min(most, row.hi)));
+          const double most =
+              row.parent == kNoRow ? kInfinity : row.friction * x[row.parent - first];
+          x.push_back(std::clamp(start[index], std::max(-most, row.lo), std::min(most, row.hi)));
           ASSERT_NEAR(frame.blocks().x[block.x + i].lane[lane], x.back(), kFloat) << "row " << i;
         }
       }
     }
-    EXPECT_EQ(lanes, static_cast<int>(scene.manifolds.size()));
+    EXPECT_EQ(lanes, static_cast<int>(scene.manifolds.size() + scene.joints.size()));
   }
 }
 
@@ -156,24 +165,20 @@ TEST(Manifold, EndsWhereItsRowsEnd) {
   settings.max_sweeps = 20000;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     ManifoldScene scene = AnyManifolds(30, 40, seed);
+    // what is rigid may contradict itself
+    for (Joint& joint : scene.joints) joint.soft = true;
+    for (JointRow& row : scene.joint_rows) row.compliance = 0.1f;
     const Solved manifolds = Solve(settings, scene);
     ASSERT_TRUE(manifolds.report.ok());
     std::vector<double> start;
     const test::Scene rows = RowsOf(scene, &start);
 
     // the yardstick knows rows alone
-    std::vector<double> x;
-    for (const Manifold& manifold : scene.manifolds) {
-      const ContactImpulse* const points = &manifolds.points[manifold.first_point];
-      for (int p = 0; p < manifold.points; ++p) x.push_back(points[p].normal);
-      for (int p = 0; p < manifold.points; ++p) {
-        for (int k = 0; k < manifold.tangents; ++k) x.push_back(points[p].tangential[k]);
-      }
-      for (int p = 0; p < manifold.points && manifold.twists; ++p) {
-        const TwistImpulse& twist = manifolds.twists[manifold.first_point + p];
-        x.insert(x.end(), {twist.spinning, twist.rolling[0], twist.rolling[1]});
-      }
-    }
+    ManifoldScene solved = scene;
+    solved.point_impulses = manifolds.points;
+    solved.twist_impulses = manifolds.twists;
+    solved.joint_impulses = manifolds.joint_rows;
+    const std::vector<double> x = AllImpulses(solved.problem(), solved.impulses());
     const Report measured = Measure(rows.problem(), x);
     ASSERT_TRUE(measured.ok());
     EXPECT_LE(measured.residual_max, 5e-5);
@@ -183,7 +188,8 @@ TEST(Manifold, EndsWhereItsRowsEnd) {
 
 TEST(Manifold, IsSolvedInDoubleLikeItsRows) {
   const Settings settings = test::PlainSweeps(30);
-  ManifoldScene scene = test::RollingManifolds(20, 40, 3);
+  ManifoldScene scene = AnyManifolds(20, 40, 3);
+  ASSERT_FALSE(scene.joints.empty());
   std::vector<double> start;
   const test::Scene rows = RowsOf(scene, &start);
   const test::Solution expected = test::Solve(settings, rows, start);
@@ -195,7 +201,7 @@ TEST(Manifold, IsSolvedInDoubleLikeItsRows) {
 
 TEST(Manifold, HasTheSameBitsOnEveryTargetAndThread) {
   for (const ManifoldScene& scene :
-       {test::RandomManifolds(60, 300, 5), test::RollingManifolds(600, 1500, 6)}) {
+       {test::RandomManifolds(60, 300, 5), AnyManifolds(600, 1500, 7)}) {
     Settings settings = test::ColouredSteps(20);
     const Solved expected = Solve(settings, scene);
     ASSERT_TRUE(expected.report.ok());
@@ -206,6 +212,7 @@ TEST(Manifold, HasTheSameBitsOnEveryTargetAndThread) {
         const Solved other = Solve(settings, scene);
         EXPECT_TRUE(test::SameBits(other.points, expected.points)) << simd::TargetName(target);
         EXPECT_TRUE(std::ranges::equal(other.twists, expected.twists, test::SameTwist));
+        EXPECT_EQ(other.joint_rows, expected.joint_rows);
         EXPECT_EQ(test::Distance(other.velocities, expected.velocities), 0);
       }
     }

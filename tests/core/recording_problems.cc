@@ -10,6 +10,7 @@ Recording RandomRecording(std::uint64_t seed) {
   ManifoldScene scene = RandomManifolds(6, 9, seed);
   scene.rows = RandomPile({.bodies = 6, .contacts = 7, .pins = 2}, seed).rows;
   for (Row& row : scene.rows) row.compliance = random.Uniform(0, 0.1);
+  AddJoints(4, seed, &scene);
   scene.row_impulses.clear();
   for (std::size_t i = 0; i < scene.rows.size(); ++i) {
     scene.row_impulses.push_back(random.Uniform(-1, 1));

@@ -7,7 +7,7 @@
 
 namespace cairn::test {
 
-/// Bodies, rows of every kind, manifolds and impulses, which can be solved.
+/// Bodies, rows of every kind, joints, manifolds and impulses, which can be solved.
 Recording RandomRecording(std::uint64_t seed);
 
 }  // namespace cairn::test

@@ -21,6 +21,7 @@ using test::Bytes;
 using test::DataOf;
 using test::EncodeAll;
 using test::NumberAt;
+using test::PutNumber;
 using test::RandomRecording;
 using test::TableEntryOf;
 
@@ -29,6 +30,7 @@ struct Answer {
   std::vector<double> rows;
   std::vector<ContactImpulse> points;
   std::vector<TwistImpulse> twists;
+  std::vector<float> joint_rows;
   std::vector<Velocity> velocities;
 };
 
@@ -37,11 +39,12 @@ Answer SolveAgain(const Recording& recording) {
                 .rows = recording.row_impulses,
                 .points = recording.point_impulses,
                 .twists = recording.twist_impulses,
+                .joint_rows = recording.joint_impulses,
                 .velocities = std::vector<Velocity>(recording.bodies.size())};
   Solver solver(recording.settings);
   if (recording.replay) solver.settings().replay = &*recording.replay;
-  solver.Solve(recording.problem(), {answer.rows, answer.points, answer.twists}, answer.velocities,
-               &answer.report);
+  solver.Solve(recording.problem(), {answer.rows, answer.points, answer.twists, answer.joint_rows},
+               answer.velocities, &answer.report);
   return answer;
 }
 
@@ -52,6 +55,7 @@ testing::AssertionResult SameBits(const Answer& a, const Answer& b) {
   };
   if (!bits(a.rows, b.rows)) return testing::AssertionFailure() << "impulses of rows";
   if (!bits(a.twists, b.twists)) return testing::AssertionFailure() << "impulses of twists";
+  if (!bits(a.joint_rows, b.joint_rows)) return testing::AssertionFailure() << "joints";
   if (!bits(a.velocities, b.velocities)) return testing::AssertionFailure() << "velocities";
   return test::SameBits(a.points, b.points);
 }
@@ -145,13 +149,13 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   recording.replay = Replay{.work = 5, .fits = {1}};
   const Bytes bytes = EncodeAll(recording);
   EXPECT_EQ(NumberAt(bytes, 0, 8), 0x0a1a0a0d4e524389u);
-  EXPECT_EQ(NumberAt(bytes, 8, 4), 1u);
-  EXPECT_EQ(NumberAt(bytes, 12, 4), 14u);
+  EXPECT_EQ(NumberAt(bytes, 8, 4), 2u);
+  EXPECT_EQ(NumberAt(bytes, 12, 4), 17u);
   EXPECT_EQ(NumberAt(bytes, 16, 8), bytes.size());
   const std::pair<const char*, unsigned> sizes[] = {
-      {"INFO", 1},   {"FRAM", 8},  {"SETT", 104}, {"REPL", 1}, {"LAWS", 8},
-      {"BODY", 208}, {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8}, {"MANI", 20},
-      {"PNTS", 64},  {"PIMP", 28}, {"TWST", 16},  {"TIMP", 12}};
+      {"INFO", 1},  {"FRAM", 8},   {"SETT", 104}, {"REPL", 1},  {"LAWS", 8},  {"BODY", 208},
+      {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8},   {"MANI", 20}, {"PNTS", 64}, {"PIMP", 28},
+      {"TWST", 16}, {"TIMP", 12},  {"JNTS", 36},  {"JROW", 64}, {"JIMP", 4}};
   std::size_t entry = 32, data = 32 + 32 * std::size(sizes);
   for (const auto& [name, size] : sizes) {
     EXPECT_EQ(TableEntryOf(bytes, name), entry) << name;
@@ -176,6 +180,36 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   EXPECT_EQ(static_cast<int>(NumberAt(bytes, row + 152, 4)), recording.rows[0].parent);
   const std::size_t manifold = DataOf(bytes, "MANI");
   EXPECT_EQ(static_cast<int>(NumberAt(bytes, manifold + 16, 1)), recording.manifolds[0].points);
+  const std::size_t joint = DataOf(bytes, "JNTS");
+  EXPECT_EQ(static_cast<int>(NumberAt(bytes, joint + 12, 4)), recording.joints[0].rows);
+  EXPECT_EQ(NumberAt(bytes, joint + 16, 4), recording.joints[0].bounded);
+}
+
+/// The file that version 1, which knew no joints, made of a recording without any.
+Bytes InVersion1(Bytes bytes) {
+  constexpr std::size_t kNew = 3 * 32;  // entries at the end of the table
+  const std::uint64_t sections = NumberAt(bytes, 12, 4) - 3;
+  const std::size_t end = 32 + 32 * sections;
+  for (std::size_t entry = 32; entry < end; entry += 32) {
+    PutNumber(NumberAt(bytes, entry + 8, 8) - kNew, entry + 8, 8, &bytes);
+  }
+  const auto cut = bytes.begin() + static_cast<std::ptrdiff_t>(end);
+  bytes.erase(cut, cut + kNew);
+  PutNumber(1, 8, 4, &bytes);
+  PutNumber(sections, 12, 4, &bytes);
+  PutNumber(bytes.size(), 16, 8, &bytes);
+  test::RepairChecksums(&bytes);
+  return bytes;
+}
+
+TEST(Recording, OfVersion1IsRead) {
+  Recording recording = RandomRecording(4);
+  recording.joints.clear();
+  recording.joint_rows.clear();
+  recording.joint_impulses.clear();
+  const Recording read = Decoded(InVersion1(EncodeAll(recording)));
+  EXPECT_TRUE(read.joints.empty());
+  EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
 }
 
 TEST(Recording, IsSolvedToTheSameBitsOnEveryInstructionSet) {
@@ -217,7 +251,8 @@ TEST(Recording, WithRowsWrittenOutHasTheSameSolution) {
     Recording rows;
     ASSERT_EQ(WriteOutRows(recording, &rows), Status::kOk);
     EXPECT_TRUE(rows.manifolds.empty());
-    EXPECT_EQ(rows.rows.size(), recording.rows.size() + ContactRows(recording.problem()));
+    EXPECT_TRUE(rows.joints.empty());
+    EXPECT_EQ(rows.rows.size(), AllRows(recording.problem()));
     EXPECT_EQ(rows.row_impulses.size(), rows.rows.size());
     const Answer a = SolveAgain(recording), b = SolveAgain(rows);
     EXPECT_EQ(test::Distance(a.velocities, b.velocities), 0);

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
+#include "cairn/joint.h"
 #include "cairn/manifold.h"
 #include "cairn/report.h"
 
@@ -65,9 +68,10 @@ struct Row {
 /// mixed LCP of the paper [1] with matrix J M^-1 J' + E; friction bounds depend on other impulses.
 ///
 /// The order of the rows matters with SweepOrder::kForward, and among the rows of two bodies.
-/// Contacts may be given as rows, or as manifolds: their rows follow @p rows, manifold by manifold,
-/// first the normals of its points, then the friction of each, then what resists turning. Manifolds
-/// are faster: nothing is written out.
+/// Joints may be given as rows, or as Joint: their rows follow @p rows, joint by joint. Contacts
+/// may be given as rows, or as manifolds: their rows come last, manifold by manifold, first the
+/// normals of its points, then the friction of each, then what resists turning. Joints and
+/// manifolds are faster: nothing is written out.
 ///
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.
@@ -77,25 +81,32 @@ struct ContactProblem {
   std::span<const Manifold> manifolds = {};
   std::span<const ContactPoint> points = {};  ///< Of the manifolds; others are not looked at.
   ContactLaw contact_law = {};
-  /// One per body, or none. What contacts see instead of the motion of the bodies, where these are
-  /// at rest because velocities are counted from the start of the step.
+  /// One per body, or none. What joints and contacts see instead of the motion of the bodies, where
+  /// these are at rest because velocities are counted from the start of the step.
   std::span<const ContactMotion> motions = {};
   std::span<const ContactTwist> twists = {};  ///< One per point, or none.
+  std::span<const Joint> joints = {};
+  std::span<const JointRow> joint_rows = {};  ///< Of the joints; others are not looked at.
 };
 
-/// Rows of the manifolds of a problem.
-int ContactRows(const ContactProblem& problem);
+/// Rows of a problem, with those of joints and manifolds.
+std::size_t AllRows(const ContactProblem& problem);
 
 /// Impulses of a problem: where a Solve() starts, and what comes of it.
 struct Impulses {
   std::span<double> rows;                 ///< One per row [N s] or [N m s].
   std::span<ContactImpulse> points = {};  ///< One per point of contact.
   std::span<TwistImpulse> twists = {};    ///< One per ContactProblem::twists.
+  std::span<float> joint_rows = {};       ///< One per ContactProblem::joint_rows [N s] or [N m s].
 };
 
-/// Measures given impulses, one per row (those of manifolds follow), in double precision and from
-/// the problem alone: the same yardstick for every solver. Fills the residuals of the report, in
-/// all and per island; bad input is answered as by Solver::Solve().
+/// One number per row of a problem, in their order: as Measure() wants them.
+/// @pre the impulses belong to the problem
+std::vector<double> AllImpulses(const ContactProblem& problem, const Impulses& impulses);
+
+/// Measures given impulses, one per row (see ContactProblem for their order), in double precision
+/// and from the problem alone: the same yardstick for every solver. Fills the residuals of the
+/// report, in all and per island; bad input is answered as by Solver::Solve().
 [[nodiscard]] Report Measure(const ContactProblem& problem, std::span<const double> impulses);
 
 }  // namespace cairn

@@ -29,6 +29,9 @@ struct Recording {
   std::vector<double> row_impulses;            ///< The start, one per row.
   std::vector<ContactImpulse> point_impulses;  ///< The start, one per point.
   std::vector<TwistImpulse> twist_impulses;    ///< The start, one per twist.
+  std::vector<Joint> joints;
+  std::vector<JointRow> joint_rows;
+  std::vector<float> joint_impulses;  ///< The start, one per row of a joint.
 
   /// The pointers among them are not kept: they are nullptr.
   Settings settings;
@@ -36,10 +39,10 @@ struct Recording {
   std::optional<Replay> replay;
 
   ContactProblem problem() const {
-    return {bodies, rows, manifolds, points, contact_law, motions, twists};
+    return {bodies, rows, manifolds, points, contact_law, motions, twists, joints, joint_rows};
   }
   /// The start, in the memory of the recording: a Solve() puts its results there.
-  Impulses impulses() { return {row_impulses, point_impulses, twist_impulses}; }
+  Impulses impulses() { return {row_impulses, point_impulses, twist_impulses, joint_impulses}; }
   /// Takes a copy of a problem and its start; memory is used again.
   void Assign(const ContactProblem& problem, const Impulses& start);
 };
@@ -81,8 +84,8 @@ RecordingStatus Save(const Recording& recording, const std::string& path);
 /// Reads one. @param[out] recording  not touched if anything is wrong
 RecordingStatus Load(const std::string& path, Recording* recording);
 
-/// The same problem without manifolds: their rows are written out, in double precision, behind
-/// those it has. Status::kOk, or why it cannot be solved.
+/// The same problem without joints and manifolds: their rows are written out, in double precision,
+/// behind those it has. Status::kOk, or why it cannot be solved.
 /// @param[out] rows  not touched unless the status is kOk
 [[nodiscard]] Status WriteOutRows(const Recording& recording, Recording* rows);
 

@@ -118,6 +118,7 @@ struct [[nodiscard]] Report {
   int bad_row = -1;       ///< First row refused, -1 if what is wrong is not a row.
   int bad_body = -1;      ///< First body refused, -1 likewise.
   int bad_manifold = -1;  ///< First manifold refused, -1 likewise.
+  int bad_joint = -1;     ///< First joint refused, -1 likewise.
 
   double residual_max = 0;      ///< Residual::max over all islands [m/s].
   double residual_angular = 0;  ///< Residual::max_angular over all islands [rad/s].

@@ -122,4 +122,8 @@ struct Settings {
   double active_tolerance = 0;
 };
 
+/// Whether contact problems are swept in blocks, in floats, as far as these say; otherwise row by
+/// row in double precision.
+bool SweepsInFloats(const Settings& settings);
+
 }  // namespace cairn

@@ -43,8 +43,8 @@ class Solver {
   /// @param[in,out] impulses  one per row and one per point of contact: the start (a warm start, or
   ///                          zeros; brought inside the bounds first) and the result.
   /// @param[out] velocities   one per body: velocities at the end of the step.
-  /// Bad input: Report::status says what, Report::bad_row, bad_body or bad_manifold where, nothing
-  /// is written.
+  /// Bad input: Report::status says what, Report::bad_row, bad_body, bad_manifold or bad_joint
+  /// where, nothing is written.
   [[nodiscard]] Report Solve(const ContactProblem& problem, const Impulses& impulses,
                              std::span<Velocity> velocities);
   /// The same into a report of an earlier call, whose memory is used again. Once a problem has been

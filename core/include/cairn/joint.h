@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace cairn {
+
+/// A row of a joint. In floats, a cache line: kernels make rows of it, 16 joints at a time, and no
+/// Row is ever written. Its fields mean what those of a Row do, but for the target:
+///   w = J (v - v_free) + compliance x - (target - damping J v_free),
+/// where v_free is how the bodies move without constraints (ContactProblem::motions, if given).
+struct JointRow {
+  float linear_a[3];   ///< Of J; what belongs to kWorld is finite, and does nothing.
+  float target;        ///< [m/s] or [rad/s]
+  float angular_a[3];  ///< Likewise.
+  float compliance;    ///< E [1/kg], >= 0; read if Joint::soft.
+  float linear_b[3];
+  float lo;  ///< [N s] or [N m s], <= hi; read where Joint::bounded says so.
+  float angular_b[3];
+  float hi;  ///< Likewise.
+};
+
+/// What connects two bodies, at most one of which does not move.
+struct Joint {
+  static constexpr int kMostRows = 32;
+
+  int body_a, body_b;         ///< Or kWorld.
+  int first_row = 0;          ///< In ContactProblem::joint_rows.
+  int rows = 1;               ///< In [1, kMostRows].
+  std::uint32_t bounded = 0;  ///< Bit i: row i has bounds, 0 for none.
+  std::uint32_t angular = 0;  ///< Bit i: row i only turns, and counts in [rad/s].
+  /// Share of what the bodies do without constraints that rows work against; 1: all.
+  float damping = 1;
+  bool soft = false;  ///< Rows have a compliance.
+  /// Rows push the bodies with opposite forces: linear_b is -linear_a. That is swept faster.
+  bool opposite = false;
+  /// Sweeps of a Solve() that the rows take part in, counted from the first.
+  int max_sweeps = std::numeric_limits<int>::max();
+
+  bool is_bounded(int row) const { return (bounded >> row & 1) != 0; }
+  bool is_angular(int row) const { return (angular >> row & 1) != 0; }
+};
+
+}  // namespace cairn

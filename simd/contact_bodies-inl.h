@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// The bodies of a block as its rows see them, transposed. Compiled once per target.
+#if defined(CAIRN_SIMD_CONTACT_BODIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAIRN_SIMD_CONTACT_BODIES_INL_H_
+#undef CAIRN_SIMD_CONTACT_BODIES_INL_H_
+#else
+#define CAIRN_SIMD_CONTACT_BODIES_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "simd/contact_body.h"
+#include "simd/lane_vectors-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cairn::simd {
+namespace HWY_NAMESPACE {
+namespace contacts {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// What a float can hold with its square.
+constexpr float kMost = 1e18f, kLeast = 1e-18f;
+
+/// The bodies of all lanes, ContactBody by number.
+struct Bodies {
+  Line number[kContactBodyNumbers];
+  HWY_INLINE Vector linear(int l) const { return At(number, l); }
+  HWY_INLINE Vector free_velocity(int l) const { return At(number + 12, l); }
+  HWY_INLINE Vector free_spin(int l) const { return At(number + 15, l); }
+  HWY_INLINE Vector start_velocity(int l) const { return At(number + 18, l); }
+  HWY_INLINE Vector start_spin(int l) const { return At(number + 21, l); }
+  /// R' of an angular vector.
+  HWY_INLINE Vector Whiten(Vector c, int l) const {
+    return {Dot(At(number + 3, l), c), Dot(At(number + 6, l), c), Dot(At(number + 9, l), c)};
+  }
+};
+
+HWY_INLINE void Gather(const ContactBody* const* from, Bodies* bodies) {
+  const float* numbers[kLanes];
+  for (int l = 0; l < kLanes; ++l) numbers[l] = from[l]->linear;
+  for (int k = 0; k < kContactBodyNumbers; k += 4) TransposeFour(numbers, k, bodies->number + k);
+}
+
+/// Writes target and step 1 / d of a row whose other lines are there. A row with d = 0, which
+/// nothing can satisfy, asks for nothing. False in lanes that do not fit a float with its square,
+/// or are not finite.
+HWY_INLINE M PutStep(V target, V diagonal, int l, Line* out) {
+  const V zero = hn::Zero(D()), one = Set(1), most = Set(kMost);
+  const M satisfiable = hn::Gt(diagonal, zero);
+  Store(hn::IfThenElseZero(satisfiable, target), out, l);
+  Store(one / hn::IfThenElse(satisfiable, diagonal, one), out + 1, l);
+  return hn::And(hn::And(hn::Le(hn::Abs(target), most), hn::Le(diagonal, most)),
+                 hn::Or(hn::Ge(diagonal, Set(kLeast)), hn::Eq(diagonal, zero)));
+}
+
+}  // namespace contacts
+}  // namespace HWY_NAMESPACE
+}  // namespace cairn::simd
+HWY_AFTER_NAMESPACE();
+
+#endif
