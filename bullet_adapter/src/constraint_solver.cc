@@ -120,7 +120,7 @@ ContactProblem ConstraintSolver::problem() const {
 
 std::span<const double> ConstraintSolver::impulses() const {
   if (!impl_->solved_fast) return impl_->rows.impulses();
-  impl_->shown_impulses = impl_->fast.AllImpulses();
+  impl_->shown_impulses = AllImpulses(impl_->fast.problem(), impl_->fast.impulses());
   return impl_->shown_impulses;
 }
 
@@ -197,7 +197,10 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   FastGroup& fast = impl_->fast;
   {
     const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kRead});
-    fast.Read(group, info, LimitsOf(impl_->settings), impl_->options);
+    Options options = impl_->options;
+    // what is swept in double precision is not rounded to floats before
+    if (!SweepsInFloats(ForGroup(impl_->settings, info, 0))) options.contacts = ContactForm::kRows;
+    fast.Read(group, info, LimitsOf(impl_->settings), options);
   }
   if (fast.problem().bodies.empty()) {
     fast.Forget();

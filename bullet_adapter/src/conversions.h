@@ -24,6 +24,8 @@ inline btVector3 ToBullet(const Eigen::Vector3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
 
+inline btVector3 ToBullet(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
+
 inline Eigen::Matrix3d ToEigen(const btMatrix3x3& m) {
   Eigen::Matrix3d result;
   for (int i = 0; i < 3; ++i) result.row(i) = ToEigen(m[i]).transpose();

@@ -37,14 +37,13 @@ void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) 
 
 void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
                      const Options& options) {
-  group_.Clear();
   pushes_.Clear();
   bodies_.Begin(group.bodies, info);
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
-  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0));
-  joint_builder_.Append(group.joints, info, limits);
+  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0), &group_);
+  joint_builder_.Append(group.joints, info, limits, options.contacts);
 
   const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),
                            &twist_memory_};
@@ -74,7 +73,8 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
 }
 
 void FastGroup::FindMotions() {
-  motions_.resize(contacts_.manifolds().empty() ? 0 : bodies_.size());
+  const bool wanted = !contacts_.manifolds().empty() || !group_.compact_joints.empty();
+  motions_.resize(wanted ? bodies_.size() : 0);
   const auto put = [](const btVector3& from, float* to) {
     for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
   };
@@ -94,24 +94,9 @@ ContactProblem FastGroup::problem() const {
           .points = contacts_.points(),
           .contact_law = contacts_.law(),
           .motions = motions_,
-          .twists = contacts_.twists()};
-}
-
-std::vector<double> FastGroup::AllImpulses() const {
-  std::vector<double> all = group_.impulses;
-  for (const Manifold& manifold : contacts_.manifolds()) {
-    const auto points = contacts_.impulses().subspan(manifold.first_point, manifold.points);
-    for (const ContactImpulse& point : points) all.push_back(point.normal);
-    for (const ContactImpulse& point : points) {
-      all.insert(all.end(), point.tangential, point.tangential + manifold.tangents);
-    }
-    if (!manifold.twists) continue;
-    const auto twists = contacts_.twist_impulses().subspan(manifold.first_point, manifold.points);
-    for (const TwistImpulse& twist : twists) {
-      all.insert(all.end(), {twist.spinning, twist.rolling[0], twist.rolling[1]});
-    }
-  }
-  return all;
+          .twists = contacts_.twists(),
+          .joints = group_.compact_joints,
+          .joint_rows = group_.joint_rows};
 }
 
 void FastGroup::Write(const btContactSolverInfo& info) {

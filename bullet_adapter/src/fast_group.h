@@ -44,10 +44,9 @@ class FastGroup {
   Impulses impulses() {
     return {.rows = group_.impulses,
             .points = contacts_.impulses(),
-            .twists = contacts_.twist_impulses()};
+            .twists = contacts_.twist_impulses(),
+            .joint_rows = group_.joint_impulses};
   }
-  /// One number per row, those of manifolds last, as Measure() wants them.
-  std::vector<double> AllImpulses() const;
   std::span<Velocity> velocities() { return velocities_; }
   /// The most sweeps that a joint asks for.
   int most_sweeps() const { return joint_builder_.most_sweeps(); }
@@ -72,7 +71,7 @@ class FastGroup {
   BodyTable bodies_;
   GroupProblem group_;
   ContactPoints contacts_;
-  std::vector<ContactMotion> motions_;  ///< one per body, if contacts want them
+  std::vector<ContactMotion> motions_;  ///< one per body, if joints or contacts want them
   SplitImpulse pushes_;
   JointMemory joint_memory_;
   TwistMemory twist_memory_;

@@ -15,8 +15,10 @@ inline namespace CAIRN_BULLET_PRECISION {
 
 /// The rows of a joint, in the order in which it gave them.
 struct JointRows {
-  btTypedConstraint* joint;
-  int first_row, rows;
+  btTypedConstraint* joint = nullptr;
+  bool written_out = false;     ///< Into GroupProblem::rows; otherwise into joint_rows.
+  int first_row = 0, rows = 0;  ///< There.
+  bool a_moves = false, b_moves = false;
 };
 
 /// The rows of a contact point. Those of friction follow each other.
@@ -27,19 +29,32 @@ struct PointRows {
   LeftDirections left;
 };
 
-/// The rows of a group with their start, and whose they are. Joints come first, then manifold by
-/// manifold the normals of its points, their friction, and what resists rolling.
+/// The rows of a group with their start, and whose they are. Of those that are written out joints
+/// come first, then manifold by manifold the normals of its points, their friction, and what
+/// resists rolling.
 struct GroupProblem {
   std::vector<Row> rows;
   std::vector<double> impulses;  ///< One per row: the start, and after solving the result [N s].
+  std::vector<Joint> compact_joints;  ///< Those that are not written out.
+  std::vector<JointRow> joint_rows;
+  std::vector<float> joint_impulses;  ///< One per joint_rows, likewise.
   std::vector<JointRows> joints;
   std::vector<PointRows> points;
 
   void Clear() {
     rows.clear();
     impulses.clear();
+    compact_joints.clear();
+    joint_rows.clear();
+    joint_impulses.clear();
     joints.clear();
     points.clear();
+  }
+
+  /// Impulse of a row of a joint.
+  double impulse(const JointRows& joint, int row) const {
+    const int at = joint.first_row + row;
+    return joint.written_out ? impulses[at] : static_cast<double>(joint_impulses[at]);
   }
 
   /// Appends a row that begins as a copy of @p law. The reference is good until the next one.

@@ -13,45 +13,48 @@ namespace {
 /// a step keeps its start.
 constexpr float kAlike = 0.9f;
 
-/// Without the half of a static body: its lever reaches to the origin of the world.
-std::array<float, 12> DirectionOf(const Row& row) {
-  std::array<float, 12> direction{};
-  for (int k = 0; k < 3; ++k) {
-    if (row.body_a != kWorld) {
-      direction[k] = static_cast<float>(row.linear_a[k]);
-      direction[3 + k] = static_cast<float>(row.angular_a[k]);
-    }
-    if (row.body_b != kWorld) {
-      direction[6 + k] = static_cast<float>(row.linear_b[k]);
-      direction[9 + k] = static_cast<float>(row.angular_b[k]);
-    }
-  }
-  return direction;
+template <class Vector>
+float Dot(const Vector& a, const Vector& b) {
+  return static_cast<float>(a[0]) * static_cast<float>(b[0]) +
+         static_cast<float>(a[1]) * static_cast<float>(b[1]) +
+         static_cast<float>(a[2]) * static_cast<float>(b[2]);
 }
 
-bool Alike(const std::array<float, 12>& a, const std::array<float, 12>& b) {
+/// Without the half of a body that does not move: its lever reaches to the origin of the world.
+template <class AnyRow>
+bool Alike(const AnyRow& a, const AnyRow& b, const JointRows& joint) {
   float ab = 0, aa = 0, bb = 0;
-  for (size_t k = 0; k < a.size(); ++k) {
-    ab += a[k] * b[k];
-    aa += a[k] * a[k];
-    bb += b[k] * b[k];
+  if (joint.a_moves) {
+    ab += Dot(a.linear_a, b.linear_a) + Dot(a.angular_a, b.angular_a);
+    aa += Dot(a.linear_a, a.linear_a) + Dot(a.angular_a, a.angular_a);
+    bb += Dot(b.linear_a, b.linear_a) + Dot(b.angular_a, b.angular_a);
+  }
+  if (joint.b_moves) {
+    ab += Dot(a.linear_b, b.linear_b) + Dot(a.angular_b, b.angular_b);
+    aa += Dot(a.linear_b, a.linear_b) + Dot(a.angular_b, a.angular_b);
+    bb += Dot(b.linear_b, b.linear_b) + Dot(b.angular_b, b.angular_b);
   }
   return ab > 0 && ab * ab >= kAlike * kAlike * aa * bb;
 }
 
-}  // namespace
-
-void JointMemory::Memory::Clear() {
-  entries.clear();
-  directions.clear();
-  impulses.clear();
+template <class AnyRow>
+bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint) {
+  for (int i = 0; i < joint.rows; ++i) {
+    if (!Alike(a[i], b[i], joint)) return false;
+  }
+  return true;
 }
 
-void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor) {
+}  // namespace
+
+void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor,
+                        GroupProblem* group) {
   constexpr size_t kAhead = 8;
+  if (!std::exchange(kept_, false)) Forget();
+  std::swap(last_, *group);
+  group->Clear();
   factor_ = factor;
   index_.Rewind();
-  now_.Clear();
   applied_.clear();
   for (size_t i = 0; i < joints.size(); ++i) {
     if (i + kAhead < joints.size()) PrefetchJoint(*joints[i + kAhead], kHeadOfJoint);
@@ -60,49 +63,49 @@ void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar fac
 }
 
 void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) {
-  const Entry& now = now_.entries.emplace_back(
-      Entry{&joint.joint->getRigidBodyA(), &joint.joint->getRigidBodyB(),
-            joint.joint->getConstraintType(), static_cast<int>(now_.directions.size()), joint.rows,
-            applied_[place]});
-  for (int i = 0; i < joint.rows; ++i) {
-    now_.directions.push_back(DirectionOf(group->rows[joint.first_row + i]));
-  }
   if (factor_ == 0) return;
   const int found = index_.Find(joint.joint);
   if (found < 0) return;
-  const Entry& last = last_.entries[found];
-  const bool same = last.type == now.type && last.body_a == now.body_a &&
-                    last.body_b == now.body_b && last.rows == now.rows &&
-                    last.applied_impulse == now.applied_impulse;
-  if (!same || !PointAlike(last, now)) return;
+  const Entry& entry = entries_[found];
+  const JointRows& last = last_.joints[found];
+  const bool same = entry.type == joint.joint->getConstraintType() &&
+                    entry.body_a == &joint.joint->getRigidBodyA() &&
+                    entry.body_b == &joint.joint->getRigidBodyB() &&
+                    entry.applied_impulse == applied_[place] && last.rows == joint.rows &&
+                    last.written_out == joint.written_out && last.a_moves == joint.a_moves &&
+                    last.b_moves == joint.b_moves;
+  if (!same) return;
+  if (joint.written_out) {
+    const Row* const rows = &group->rows[joint.first_row];
+    if (!AllAlike(&last_.rows[last.first_row], rows, joint)) return;
+    for (int i = 0; i < joint.rows; ++i) {
+      group->impulses[joint.first_row + i] = factor_ * last_.impulses[last.first_row + i];
+    }
+    return;
+  }
+  const JointRow* const rows = &group->joint_rows[joint.first_row];
+  if (!AllAlike(&last_.joint_rows[last.first_row], rows, joint)) return;
   for (int i = 0; i < joint.rows; ++i) {
-    group->impulses[joint.first_row + i] = factor_ * last_.impulses[last.first_row + i];
+    group->joint_impulses[joint.first_row + i] =
+        static_cast<float>(factor_) * last_.joint_impulses[last.first_row + i];
   }
-}
-
-bool JointMemory::PointAlike(const Entry& last, const Entry& now) const {
-  for (int i = 0; i < now.rows; ++i) {
-    const Direction& before = last_.directions[last.first_row + i];
-    if (!Alike(before, now_.directions[now.first_row + i])) return false;
-  }
-  return true;
 }
 
 void JointMemory::Keep(const GroupProblem& group) {
-  std::swap(last_, now_);
+  kept_ = true;
+  entries_.clear();
   index_.Clear();
-  for (size_t i = 0; i < group.joints.size(); ++i) {
-    const JointRows& joint = group.joints[i];
-    index_.Add(joint.joint);
-    last_.entries[i].applied_impulse = joint.joint->internalGetAppliedImpulse();
-    const auto first = group.impulses.begin() + joint.first_row;
-    last_.impulses.insert(last_.impulses.end(), first, first + joint.rows);
+  for (const JointRows& rows : group.joints) {
+    const btTypedConstraint& joint = *rows.joint;
+    index_.Add(rows.joint);
+    entries_.push_back({&joint.getRigidBodyA(), &joint.getRigidBodyB(), joint.getConstraintType(),
+                        rows.joint->internalGetAppliedImpulse()});
   }
 }
 
 void JointMemory::Forget() {
   index_.Clear();
-  last_.Clear();
+  entries_.clear();
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -21,35 +20,27 @@ class JointMemory {
  public:
   /// Begins a group; the applied impulses of the joints must be as the last group left them.
   /// @param factor  of the start, in [0, 1]; 0 starts cold.
-  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor);
-  /// Sets the start of the joint with that place in the group. All joints with rows must come here,
-  /// in the order of GroupProblem::joints.
+  /// @param group   has the last one, which is taken away; is left empty
+  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor, GroupProblem* group);
+  /// Sets the start of the joint with that place in the group.
   void Start(int place, const JointRows& joint, GroupProblem* group);
   /// Remembers a solved group, once its impulses are written to the joints.
   void Keep(const GroupProblem& group);
   void Forget();
 
  private:
+  /// What a joint is known by; its rows and impulses are in last_.
   struct Entry {
     const btRigidBody *body_a, *body_b;
-    int type, first_row, rows;
+    int type;
     btScalar applied_impulse;
   };
-  using Direction = std::array<float, 12>;
-  struct Memory {
-    std::vector<Entry> entries;
-    std::vector<Direction> directions;  ///< of their rows
-    std::vector<double> impulses;       ///< likewise
-
-    void Clear();
-  };
-
-  bool PointAlike(const Entry& last, const Entry& now) const;
 
   btScalar factor_ = 0;
   std::vector<btScalar> applied_;  ///< of the present joints, by place
-  Memory last_;
-  Memory now_;          ///< directions are read while they are in the cache
+  std::vector<Entry> entries_;     ///< of the last group, in the order of its joints
+  GroupProblem last_;
+  bool kept_ = false;   ///< the present group was
   AddressIndex index_;  ///< of the entries
 };
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "joint_rows.h"
 
+#include <BulletDynamics/ConstraintSolver/btConeTwistConstraint.h>
+#include <BulletDynamics/ConstraintSolver/btPoint2PointConstraint.h>
+
 #include <algorithm>
+#include <typeinfo>
 
 #include "conversions.h"
 #include "prefetch.h"
@@ -12,9 +16,33 @@ namespace {
 
 btVector3 ToVector(const btScalar* axis) { return {axis[0], axis[1], axis[2]}; }
 
+/// What Bullet knows in doubles is not added up in floats: the core is then given targets that it
+/// takes nothing from.
+constexpr bool kTargetsInDouble = sizeof(btScalar) == sizeof(double);
+
+/// Of that very class, of which no function is overridden.
+bool IsConeTwist(const btTypedConstraint& joint) {
+  return joint.getConstraintType() == CONETWIST_CONSTRAINT_TYPE &&
+         typeid(joint) == typeid(btConeTwistConstraint);
+}
+
+/// Rows that the last getInfo2() wrote.
+int RowsOf(btConeTwistConstraint* cone) {
+  const bool both =
+      cone->getSwingSpan1() < cone->getFixThresh() && cone->getSwingSpan2() < cone->getFixThresh();
+  const int swing = !cone->isPastSwingLimit() ? 0 : both ? 2 : 1;
+  return 3 + swing + (cone->getSolveTwistLimit() != 0 ? 1 : 0);
+}
+
+/// A point-to-point joint makes Jacobians that only its obsolete solver reads.
+bool NeedsJacobian(const btTypedConstraint& joint) {
+  return joint.getConstraintType() != POINT2POINT_CONSTRAINT_TYPE ||
+         typeid(joint) != typeid(btPoint2PointConstraint);
+}
+
 /// What Bullet does to a joint before a substep, enabled or not.
 void Prepare(btTypedConstraint* joint) {
-  joint->buildJacobian();
+  if (NeedsJacobian(*joint)) joint->buildJacobian();
   joint->internalSetAppliedImpulse(0);
   btJointFeedback* const feedback = joint->getJointFeedback();
   if (feedback == nullptr) return;
@@ -41,6 +69,16 @@ btScalar HalfSpeed(const btRigidBody& rigid, const Motion* motion, const btVecto
          angular.dot(motion->spin + motion->external_spin);
 }
 
+/// Of a body that has no number: what has one is seen by the core.
+bool StandsStill(const btRigidBody& rigid, const Motion* motion) {
+  return motion != nullptr ||
+         (rigid.getLinearVelocity().isZero() && rigid.getAngularVelocity().isZero());
+}
+
+void Put(const btScalar* from, float* to) {
+  for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
+}
+
 }  // namespace
 
 bool AllOfKnownType(Joints joints) {
@@ -62,14 +100,15 @@ bool AllOfKnownType(Joints joints) {
   });
 }
 
-void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits) {
+void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits,
+                             ContactForm form) {
   most_sweeps_ = 0;
   constexpr size_t kAhead = 2;
   for (btTypedConstraint* joint : joints) Prepare(joint);
   for (size_t place = 0; place < joints.size(); ++place) {
     if (place + kAhead < joints.size()) PrefetchJoint(*joints[place + kAhead], kMostOfJoint);
     if (!joints[place]->isEnabled()) continue;
-    const JointRows appended = AppendJoint(joints[place], info, limits);
+    const JointRows appended = AppendJoint(joints[place], info, limits, form);
     if (appended.rows == 0) continue;
     group_->joints.push_back(appended);
     memory_->Start(static_cast<int>(place), appended, group_);
@@ -77,12 +116,11 @@ void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, Swe
 }
 
 JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContactSolverInfo& info,
-                                       SweepLimits limits) {
-  btTypedConstraint::btConstraintInfo1 size{};
-  joint->getInfo1(&size);
-  JointRows result{joint, static_cast<int>(group_->rows.size()), 0};
-  if (size.m_numConstraintRows <= 0) return result;
-  const btScalar damping = FillSlots(joint, size.m_numConstraintRows, info);
+                                       SweepLimits limits, ContactForm form) {
+  JointRows result;
+  result.joint = joint;
+  const btScalar damping = FillSlots(joint, info);
+  if (slots_.empty()) return result;
 
   const int own = joint->getOverrideNumSolverIterations();
   const int sweeps = own > 0 ? own : info.m_numIterations;
@@ -92,21 +130,38 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   if (!bodies_->reacts(law.body_a) && !bodies_->reacts(law.body_b)) return result;
   if (limits == SweepLimits::kBullet) law.max_sweeps = sweeps;
 
-  result.rows = size.m_numConstraintRows;
+  result.a_moves = law.body_a != kWorld;
+  result.b_moves = law.body_b != kWorld;
+  result.rows = static_cast<int>(slots_.size());
+  result.written_out = form == ContactForm::kRows || !IsCompact();
   const auto motion = [this](int number) {
     return number == kWorld ? nullptr : &bodies_->motion(number);
   };
   const Ends ends{a, b, motion(law.body_a), motion(law.body_b), law};
-  for (const Slot& slot : slots_) AppendRow(ends, slot, damping);
+  if (result.written_out) {
+    result.first_row = static_cast<int>(group_->rows.size());
+    for (const Slot& slot : slots_) AppendRow(ends, slot, damping);
+  } else {
+    result.first_row = static_cast<int>(group_->joint_rows.size());
+    AppendCompact(ends, damping);
+  }
   return result;
 }
 
-btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, int rows,
-                                    const btContactSolverInfo& info) {
+btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info) {
+  // a cone-twist joint finds out twice where it is, for the number of its rows and for the rows
+  auto* const cone = IsConeTwist(*joint) ? static_cast<btConeTwistConstraint*>(joint) : nullptr;
+  btTypedConstraint::btConstraintInfo1 size{};
+  if (cone != nullptr) {
+    cone->getInfo1NonVirtual(&size);  // the most that there are
+  } else {
+    joint->getInfo1(&size);
+  }
   Slot empty{};
   empty.lower = -SIMD_INFINITY;
   empty.upper = SIMD_INFINITY;
-  slots_.assign(rows, empty);
+  slots_.assign(std::max(0, size.m_numConstraintRows), empty);
+  if (slots_.empty()) return 0;
   Slot& first = slots_[0];
   first.cfm = info.m_globalCfm;  // of the first row only, as in Bullet
 
@@ -126,6 +181,7 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, int rows,
   query.m_numIterations = info.m_numIterations;
   query.m_damping = info.m_damping;
   joint->getInfo2(&query);
+  if (cone != nullptr) slots_.resize(RowsOf(cone));
 
   const btScalar breaking = joint->getBreakingImpulseThreshold();
   for (Slot& slot : slots_) {
@@ -133,6 +189,70 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, int rows,
     if (slot.lower <= -breaking) slot.lower = -breaking;
   }
   return query.m_damping;
+}
+
+bool JointRowBuilder::IsCompact() const {
+  // the CFM of Bullet is also a step length
+  return slots_.size() <= Joint::kMostRows &&
+         std::ranges::all_of(slots_, [](const Slot& slot) { return slot.cfm == 0; });
+}
+
+void JointRowBuilder::AppendCompact(const Ends& ends, btScalar damping) {
+  Joint& joint = group_->compact_joints.emplace_back(
+      Joint{.body_a = ends.law.body_a,
+            .body_b = ends.law.body_b,
+            .first_row = static_cast<int>(group_->joint_rows.size()),
+            .rows = static_cast<int>(slots_.size()),
+            .damping = kTargetsInDouble ? 0 : static_cast<float>(damping),
+            .max_sweeps = ends.law.max_sweeps});
+  const bool still =
+      !kTargetsInDouble && StandsStill(ends.a, ends.motion_a) && StandsStill(ends.b, ends.motion_b);
+  const btScalar inv_mass_a = ends.a.getInvMass(), inv_mass_b = ends.b.getInvMass();
+  group_->joint_rows.resize(group_->joint_rows.size() + slots_.size());
+  group_->joint_impulses.resize(group_->joint_rows.size());
+  JointRow* row = &group_->joint_rows[joint.first_row];
+  std::uint32_t bounded = 0, angular = 0;
+  bool opposite = true;
+  for (size_t i = 0; i < slots_.size(); ++i, ++row) {
+    const Slot& slot = slots_[i];
+    const btVector3 linear_a = ToVector(slot.linear_a), linear_b = ToVector(slot.linear_b);
+    const btScalar a2 = linear_a.length2(), b2 = linear_b.length2();
+    if (a2 + b2 == 0) angular |= 1u << i;
+    opposite = opposite && (linear_a + linear_b).isZero();
+    const double lo = Bound(slot.lower), hi = Bound(slot.upper);
+    if (lo > -kInfinity || hi < kInfinity) bounded |= 1u << i;
+    row->lo = static_cast<float>(lo);
+    row->hi = static_cast<float>(hi);
+    // one that pushes nothing asks for nothing
+    const bool pushes = a2 * inv_mass_a + b2 * inv_mass_b > SIMD_EPSILON;
+    if (!pushes && !(Diagonal(ends, slot) > SIMD_EPSILON)) continue;
+    Put(slot.linear_a, row->linear_a);
+    Put(slot.angular_a, row->angular_a);
+    Put(slot.linear_b, row->linear_b);
+    Put(slot.angular_b, row->angular_b);
+    double target = slot.error;
+    if (!still) target -= static_cast<double>(UnseenSpeed(ends, slot) * damping);
+    row->target = static_cast<float>(std::clamp(target, -kMostTarget, kMostTarget));
+  }
+  joint.bounded = bounded;
+  joint.angular = angular;
+  joint.opposite = opposite;
+}
+
+btScalar JointRowBuilder::Diagonal(const Ends& ends, const Slot& slot) {
+  return HalfDiagonal(ends.a, ToVector(slot.linear_a), ToVector(slot.angular_a)) +
+         HalfDiagonal(ends.b, ToVector(slot.linear_b), ToVector(slot.angular_b));
+}
+
+btScalar JointRowBuilder::UnseenSpeed(const Ends& ends, const Slot& slot) {
+  btScalar speed = 0;
+  if (kTargetsInDouble || ends.motion_a == nullptr) {
+    speed += HalfSpeed(ends.a, ends.motion_a, ToVector(slot.linear_a), ToVector(slot.angular_a));
+  }
+  if (kTargetsInDouble || ends.motion_b == nullptr) {
+    speed += HalfSpeed(ends.b, ends.motion_b, ToVector(slot.linear_b), ToVector(slot.angular_b));
+  }
+  return speed;
 }
 
 void JointRowBuilder::AppendRow(const Ends& ends, const Slot& slot, btScalar damping) {
@@ -152,8 +272,7 @@ void JointRowBuilder::AppendRow(const Ends& ends, const Slot& slot, btScalar dam
       linear_a.length2() * ends.a.getInvMass() + linear_b.length2() * ends.b.getInvMass();
   btScalar diagonal = pushed;
   if (slot.cfm != 0 || !(pushed > SIMD_EPSILON)) {
-    diagonal =
-        HalfDiagonal(ends.a, linear_a, angular_a) + HalfDiagonal(ends.b, linear_b, angular_b);
+    diagonal = Diagonal(ends, slot);
     if (!(btFabs(diagonal) > SIMD_EPSILON)) return;
   }
   const btScalar speed = HalfSpeed(ends.a, ends.motion_a, linear_a, angular_a) +

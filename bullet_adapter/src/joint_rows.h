@@ -9,6 +9,7 @@
 
 #include "body_table.h"
 #include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/options.h"
 #include "group_problem.h"
 #include "joint_memory.h"
 
@@ -29,7 +30,7 @@ class JointRowBuilder {
   /// Prepares every joint for the substep, as Bullet does also for those that are disabled, and
   /// appends the rows of those that are enabled.
   /// @pre the memory has begun the group.
-  void Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits);
+  void Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits, ContactForm form);
 
   /// What Append() reads and fills; all must outlive the builder.
   JointRowBuilder(BodyTable* bodies, JointMemory* memory, GroupProblem* group)
@@ -54,10 +55,16 @@ class JointRowBuilder {
 
   /// Returns the rows that were appended, none where neither body reacts.
   JointRows AppendJoint(btTypedConstraint* joint, const btContactSolverInfo& info,
-                        SweepLimits limits);
-  /// Returns the damping of the rows.
-  btScalar FillSlots(btTypedConstraint* joint, int rows, const btContactSolverInfo& info);
+                        SweepLimits limits, ContactForm form);
+  /// Asks the joint for its rows. Returns their damping.
+  btScalar FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info);
+  bool IsCompact() const;
+  static btScalar Diagonal(const Ends& ends, const Slot& slot);
+  /// What the core does not see of J v: static bodies have no number there, and may have a
+  /// velocity.
+  static btScalar UnseenSpeed(const Ends& ends, const Slot& slot);
   void AppendRow(const Ends& ends, const Slot& slot, btScalar damping);
+  void AppendCompact(const Ends& ends, btScalar damping);
 
   BodyTable* bodies_;
   JointMemory* memory_;

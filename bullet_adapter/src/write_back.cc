@@ -13,7 +13,9 @@ namespace {
 /// A joint breaks at its bound, which sweeps in floats may round down.
 constexpr btScalar kFloatRounding = btScalar(1e-6);
 
-void AddFeedback(const Row& row, btScalar force, const btTypedConstraint& joint,
+/// @p row: a Row or a JointRow
+template <class AnyRow>
+void AddFeedback(const AnyRow& row, btScalar force, const btTypedConstraint& joint,
                  btJointFeedback* feedback) {
   const btRigidBody &a = joint.getRigidBodyA(), &b = joint.getRigidBodyB();
   feedback->m_appliedForceBodyA += ToBullet(row.linear_a) * force * a.getLinearFactor();
@@ -57,10 +59,16 @@ void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info) {
     btTypedConstraint& joint = *rows.joint;
     btJointFeedback* const feedback = joint.getJointFeedback();
     const btScalar breaking = joint.getBreakingImpulseThreshold() * (1 - kFloatRounding);
-    for (int row = rows.first_row; row < rows.first_row + rows.rows; ++row) {
-      const auto impulse = static_cast<btScalar>(group.impulses[row]);
+    for (int row = 0; row < rows.rows; ++row) {
+      const auto impulse = static_cast<btScalar>(group.impulse(rows, row));
       if (feedback != nullptr) {
-        AddFeedback(group.rows[row], impulse / info.m_timeStep, joint, feedback);
+        const btScalar force = impulse / info.m_timeStep;
+        const int at = rows.first_row + row;
+        if (rows.written_out) {
+          AddFeedback(group.rows[at], force, joint, feedback);
+        } else {
+          AddFeedback(group.joint_rows[at], force, joint, feedback);
+        }
       }
       joint.internalSetAppliedImpulse(impulse);
       if (btFabs(impulse) >= breaking) joint.setEnabled(false);

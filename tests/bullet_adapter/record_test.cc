@@ -53,31 +53,13 @@ Recording Read(const std::string& path) {
   return recording;
 }
 
-/// As ConstraintSolver::impulses() has them: those of manifolds last.
-std::vector<double> InOneRow(const Recording& recording, const Impulses& impulses) {
-  std::vector<double> all(impulses.rows.begin(), impulses.rows.end());
-  for (const Manifold& manifold : recording.manifolds) {
-    const auto points = impulses.points.subspan(manifold.first_point, manifold.points);
-    for (const ContactImpulse& point : points) all.push_back(point.normal);
-    for (const ContactImpulse& point : points) {
-      all.insert(all.end(), point.tangential, point.tangential + manifold.tangents);
-    }
-    if (!manifold.twists) continue;
-    for (const TwistImpulse& twist :
-         impulses.twists.subspan(manifold.first_point, manifold.points)) {
-      all.insert(all.end(), {twist.spinning, twist.rolling[0], twist.rolling[1]});
-    }
-  }
-  return all;
-}
-
 std::vector<double> SolveNext(Solver* solver, Recording recording) {
   solver->settings() = recording.settings;
   if (recording.replay) solver->settings().replay = &*recording.replay;
   std::vector<Velocity> velocities(recording.bodies.size());
   const Impulses impulses = recording.impulses();
   EXPECT_TRUE(solver->Solve(recording.problem(), impulses, velocities).ok());
-  return InOneRow(recording, impulses);
+  return AllImpulses(recording.problem(), impulses);
 }
 
 std::vector<double> SolveAlone(const Recording& recording) {

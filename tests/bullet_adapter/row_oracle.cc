@@ -243,12 +243,36 @@ class PointComparison {
   const bullet::PointRows& point_;
 };
 
+/// Joints that go to the core as such, with their rows as they were written out from @p next on.
+/// Returns what comes behind those.
+const Row* CompareJoints(const bullet::FastGroup& rows, const bullet::FastGroup& points,
+                         const Row* next, RowCounts* counts) {
+  const auto &expected = rows.group().joints, &actual = points.group().joints;
+  EXPECT_EQ(actual.size(), expected.size());
+  for (size_t i = 0; i < std::min(actual.size(), expected.size()); ++i) {
+    EXPECT_EQ(actual[i].joint, expected[i].joint);
+    EXPECT_EQ(actual[i].rows, expected[i].rows);
+    if (actual[i].written_out) continue;
+    for (int k = 0; k < actual[i].rows; ++k, ++next) {
+      const Row& row = rows.problem().rows[expected[i].first_row + k];
+      ExpectClose(*next, row, 1);
+      EXPECT_FLOAT_EQ(static_cast<float>(next->lo), static_cast<float>(row.lo));
+      EXPECT_FLOAT_EQ(static_cast<float>(next->hi), static_cast<float>(row.hi));
+      EXPECT_EQ(row.compliance, 0);
+      EXPECT_EQ(next->max_sweeps, row.max_sweeps);
+      ++counts->compact;
+    }
+  }
+  return next;
+}
+
 void CompareManifolds(const bullet::FastGroup& rows, bullet::FastGroup* points, RowCounts* counts) {
   std::map<const btManifoldPoint*, const bullet::PointRows*> rows_of;
   for (const bullet::PointRows& point : rows.group().points) rows_of[point.point] = &point;
   const ContactProblem problem = points->problem();
   const ContactExpansion expansion(problem, points->impulses());
   const Row* next = expansion.problem().rows.data() + problem.rows.size();
+  next = CompareJoints(rows, *points, next, counts);
   for (const Manifold& manifold : problem.manifolds) {
     for (int p = 0; p < manifold.points; ++p) {
       const auto of = rows_of.find(points->contacts().sources()[manifold.first_point + p]);
@@ -314,6 +338,7 @@ RowCounts ExpectBulletsRowsInWorld(const std::function<void(bench::World*)>& bui
         counts.frictions += more.frictions;
         counts.twists += more.twists;
         counts.points += more.points;
+        counts.compact += more.compact;
       });
     }
     world.Step();

@@ -15,13 +15,14 @@ using ChangeState = std::function<void(const bench::Substep&)>;
 /// How many rows were compared.
 struct RowCounts {
   int joints = 0, normals = 0, frictions = 0, twists = 0;
-  int points = 0;  ///< of contact that go to the core in manifolds
+  int points = 0;   ///< of contact that go to the core in manifolds
+  int compact = 0;  ///< rows of joints that go to the core as such
 };
 
 /// Expects that for every group of a substep the rows of FastGroup are those that Bullet's own
 /// set-up makes from the same state: J, target, compliance, bounds, friction coefficients, and the
-/// start of normals; that making them twice gives the same; and that the manifolds of FastGroup
-/// stand for those rows, to the precision of floats.
+/// start of normals; that making them twice gives the same; and that the joints and manifolds of
+/// FastGroup stand for those rows, to the precision of floats.
 RowCounts ExpectBulletsRows(const bench::Substep& substep, const btContactSolverInfo& info,
                             const ChangeState& change);
 

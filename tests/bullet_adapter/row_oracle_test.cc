@@ -39,6 +39,7 @@ TEST_P(RowsOfJoint, AreBullets) {
   const RowCounts counts = ExpectBulletsRowsInWorld(
       [&](World* world) { BuildJointWorld(GetParam(), world); }, AsItIs, 60, 1);
   EXPECT_GT(counts.joints, 0);
+  EXPECT_EQ(counts.compact, counts.joints);
 }
 
 TEST_P(RowsOfJoint, AreBulletsWithSoftnessAndDampingOfTheWorld) {

@@ -15,12 +15,12 @@ enum class Mode {
   kReference,
 };
 
-/// How contacts go to the solver in Mode::kFast.
+/// How joints and contacts go to the solver in Mode::kFast.
 enum class ContactForm {
-  /// As manifolds, which is faster; those that have more than normals and plain friction (see
-  /// docs/bullet.md) as rows.
+  /// As cairn::Joint and cairn::Manifold, which is faster; joints with a CFM, and manifolds with
+  /// more than normals and plain friction (see docs/bullet.md), as rows.
   kManifolds,
-  kRows,  ///< All as rows.
+  kRows,  ///< All as rows; also wherever sweeps are made in double precision.
 };
 
 /// How the adapter works; how hard the solver tries is in cairn::Settings.
