@@ -8,7 +8,7 @@ namespace cairn {
 namespace {
 
 /// Sweeps between two looks at how far the islands have come. The first look is after one sweep:
-/// what rests need not be swept again. From the second on, frames are compared; see StepChoice.
+/// what rests need not be swept again. From the second on what sweeps gain is learnt; see StepOdds.
 constexpr int kMostSweepsUnseen = 8;
 constexpr int kMarkedSweep = 3;
 
@@ -33,16 +33,15 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   meter_ = meter;
   sweeps_ = &sweeps;
   crew_ = crew;
-  // a budget is shared by steps and sweeps: frames with steps and frames without are compared
+  // a budget is shared by steps and sweeps: what both gain is watched
   const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
   watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
-  steps_.Begin(problem, settings, frame, memories, crew,
-               asked && (!watches_ || memories->choice().steps()));
+  steps_.Begin(problem, settings, frame, memories, crew, asked);
   Begin();
   while (Active()) Leg();
   meter_->Begin();
   Finish();
-  if (watches_) Learn(&memories->choice());
+  if (watches_ && steps_.asked()) Learn();
   FillReport(report);
 }
 
@@ -76,6 +75,14 @@ void BlockCycle::Begin() {
 
 bool BlockCycle::Active() const {
   return std::any_of(made_.begin(), made_.end(), [](const GroupSweeps& g) { return g.active; });
+}
+
+double BlockCycle::ActiveRows() const {
+  double rows = 0;
+  for (size_t g = 0; g < made_.size(); ++g) {
+    if (made_[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);
+  }
+  return rows;
 }
 
 int BlockCycle::SweepsMade() const {
@@ -128,7 +135,7 @@ void BlockCycle::Leg() {
     const int unseen = UnseenAfter(SweepsMade());
     whole = Sweep(std::min(end - SweepsMade(), unseen));
     if (whole && SweepsMade() == 1) MarkStart();
-    if (whole && SweepsMade() == kMarkedSweep) MarkEnergies();
+    if (whole && SweepsMade() >= kMarkedSweep) MarkRuns();
     if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
     Judge(whole);
   }
@@ -179,10 +186,7 @@ bool BlockCycle::MoveOn() {
   const bool all_stepped = std::all_of(states_.begin(), states_.end(),
                                        [](const IslandState& island) { return island.stepped; });
   if (all_stepped) return false;
-  double rows = 0;
-  for (size_t g = 0; g < made_.size(); ++g) {
-    if (made_[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);
-  }
+  const double rows = ActiveRows();
   if (!meter_->Fits(0, (1 + Nncg::kSweeps) * rows)) {
     nncg_.ForgetAll();
     return false;

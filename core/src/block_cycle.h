@@ -33,14 +33,21 @@ class BlockCycle {
            IslandMemories* memories, BudgetMeter* meter, Crew* crew, Report* report);
 
  private:
+  struct SweepMark {
+    int sweeps = 0;
+    double energy = 0;
+  };
   /// What is known of an island on the way; its counts and its end are in islands_.
   struct IslandState {
     Residual seen;            ///< by the last measured sweep
     Residual seen_with_step;  ///< the same, while sweeps alone are tried
     Residual best;            ///< of the snapshot; its energy is infinite if there is none
-    double first_energy = 0;  ///< Residual::energy after the first few sweeps
-    bool too_late = false;    ///< a step does not fit any more
-    bool stepped = false;     ///< a step was taken before this leg, and is not judged yet
+    /// Sweeps since the last step, or since the frame began: where they begin, and
+    /// Residual::energy after so many of them, the first and two later ones, each twice as far.
+    int run_begin = 0;
+    SweepMark start, quarter, half;
+    bool too_late = false;  ///< a step does not fit any more
+    bool stepped = false;   ///< a step was taken before this leg, and is not judged yet
     bool better_alone = false;
     bool rests = false;  ///< one was judged after this leg: the next leg is one of sweeps
   };
@@ -55,6 +62,8 @@ class BlockCycle {
   void LearnWays();
   /// Takes down what the first sweep saw.
   void MarkStart();
+  /// Takes down how far sweeps alone have come.
+  void MarkRuns();
   /// Reads what the last sweep of the groups saw.
   void See(std::span<const GroupSweeps> groups);
   void Judge(bool seen);
@@ -66,6 +75,7 @@ class BlockCycle {
   /// Neither done, nor to be compared with itself first.
   bool Open(int island) const { return !Done(island) && !states_[island].stepped; }
   bool Active() const;
+  double ActiveRows() const;  ///< of the groups that are swept
   int SweepsMade() const;
   void KeepBest();
   /// The best states, and their residuals.
@@ -85,10 +95,20 @@ class BlockCycle {
   double SureGain() const;
   void KeepBetterSteps(int sweeps);
   void TryWithoutSteps(int sweeps);
-  /// Remembers where frames with steps and frames without begin to differ.
-  void MarkEnergies();
-  /// Tells what steps, or sweeps alone, came to in this frame.
-  void Learn(StepChoice* choice);
+  /// Work of the steps that are to be taken after a leg, and of the sweeps that they need.
+  struct PlannedSteps {
+    double steps = 0, sweeps = 0;
+  };
+  /// Adds a step on islands of group @p g; NoStep::kEnded if it may be taken, else why not.
+  NoStep PlanStep(int g, std::span<const int> islands, PlannedSteps* planned);
+  /// Whether it does more than the sweeps in its place; see StepOdds. @p planned: work of steps
+  /// before it
+  bool StepPays(int g, std::span<const int> islands, double planned, double price);
+  int StepsTaken(int island) const;
+  /// From here on what sweeps gain is looked at: those since the sweep @p begin.
+  void BeginRun(int island, int begin);
+  /// Tells the odds what sweeps gained, after the last one.
+  void Learn();
 
   const Settings* settings_ = nullptr;
   BlockFrame* frame_ = nullptr;

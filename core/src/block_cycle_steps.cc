@@ -13,11 +13,11 @@ namespace {
 /// Fewer sweeps after a step do not smooth what it leaves behind.
 constexpr int kLeastSweepsAfterStep = 3;
 /// A step that brought the residual down to this share is kept without trying sweeps alone. Under a
-/// budget less is enough: that trial takes from it as much as the sweeps of the step do, and frames
-/// are compared there.
+/// budget less is enough: that trial takes from it as much as the sweeps of the step do, and what
+/// steps gain is learnt there.
 constexpr double kSureGain = 0.1, kSureGainOfBudget = 0.7;
-/// Squared residuals below this share of the first are rounding.
-constexpr double kLeastShare = 1e-10;
+/// What fewer sweeps gain says too little; after a step, whose trace they carry, even more so.
+constexpr int kLeastRun = 9, kLeastRunAfterStep = 30;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
@@ -28,12 +28,8 @@ double BlockCycle::SureGain() const { return watches_ ? kSureGainOfBudget : kSur
 void BlockCycle::FindCandidates() {
   const int left = settings_->max_sweeps - SweepsMade();
   if (!steps_.asked() || left < std::min(settings_->k_gs, kLeastSweepsAfterStep)) return;
-  // after the step its sweeps, and, where frames are not compared, as many without it
-  const double sweeps =
-      (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
-  const bool always = settings_->step_policy == StepPolicy::kAlways;
   const Plan& plan = frame_->plan();
-  double steps_units = 0, sweeps_units = 0;
+  PlannedSteps planned;
   for (int g = 0; g < static_cast<int>(made_.size()); ++g) {
     const Group& group = plan.groups()[g];
     const size_t first = stepped_islands_.size();
@@ -46,49 +42,108 @@ void BlockCycle::FindCandidates() {
     }
     if (stepped_islands_.size() == first) continue;
 
-    const double rows = static_cast<double>(group.rows), after = sweeps_units + sweeps * rows;
     const auto islands = std::span(stepped_islands_).subspan(first);
-    double price = steps_.PriceOfPrice(g, islands);
-    bool fits = meter_->Fits(steps_units + price, after);
-    if (fits) {
-      // as many factorisations as fit
-      int most = settings_->k_sm;
-      do {
-        price = steps_.Price(g, islands, most);
-        fits = (always || price <= kMostSweeps * rows) && meter_->Fits(steps_units + price, after);
-      } while (!fits && --most > 0);
-      steps_.Limit(g, most);
+    const NoStep refused = PlanStep(g, islands, &planned);
+    if (refused == NoStep::kEnded) continue;
+    // there is never more left of a budget; the next frame has its own
+    for (int i : islands) {
+      states_[i].too_late = true;
+      islands_[i].no_step = refused;
+      if (!watches_) steps_.Postpone(i);
     }
-    if (!fits) {
-      // there is never more left of a budget; the next frame has its own
-      for (int i : islands) {
-        states_[i].too_late = true;
-        islands_[i].no_step = NoStep::kTooDear;
-        if (!watches_) steps_.Postpone(i);
-      }
-      stepped_islands_.resize(first);
-      continue;
-    }
-    steps_units += price;
-    sweeps_units = after;
+    stepped_islands_.resize(first);
   }
 }
 
-void BlockCycle::MarkEnergies() {
+NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* planned) {
+  // after the step its sweeps, and, where that is not foreseen, as many without it
+  const int left = settings_->max_sweeps - SweepsMade();
+  const double sweeps =
+      (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
+  const double rows = static_cast<double>(frame_->plan().groups()[g].rows);
+  const double after = planned->sweeps + sweeps * rows;
+  const auto fits = [&](double price) { return meter_->Fits(planned->steps + price, after); };
+
+  const double unseen = steps_.PriceOfPrice(g, islands);
+  if (!fits(unseen)) return NoStep::kTooDear;
+  if (unseen > 0 && !StepPays(g, islands, planned->steps, unseen)) return NoStep::kSweepsFaster;
+  // as many factorisations as fit
+  const bool always = settings_->step_policy == StepPolicy::kAlways;
+  NoStep refused = NoStep::kTooDear;
+  for (int most = settings_->k_sm; most > 0; --most) {
+    const double price = steps_.Price(g, islands, most);
+    if (!(always || price <= kMostSweeps * rows) || !fits(price)) continue;
+    refused = NoStep::kSweepsFaster;
+    if (!StepPays(g, islands, planned->steps, price)) continue;
+    steps_.Limit(g, most);
+    *planned = {.steps = planned->steps + price, .sweeps = after};
+    return NoStep::kEnded;
+  }
+  return refused;
+}
+
+bool BlockCycle::StepPays(int g, std::span<const int> islands, double planned, double price) {
+  if (!watches_) return true;
+  double cut = 0, power = 0;
+  int sweeps = settings_->max_sweeps;
+  for (int i : islands) {
+    const StepOdds& odds = steps_.odds(i);
+    if (odds.stale()) return false;
+    cut += odds.cut(StepsTaken(i));
+    power += odds.power();
+    sweeps = std::min(sweeps, SweepsMade() - states_[i].run_begin);
+  }
+  if (cut <= 0) return false;
+  // of what is left each group has its share
+  const double all_rows = ActiveRows();
+  const double shares = all_rows / static_cast<double>(frame_->plan().groups()[g].rows);
+  const double sweep = all_rows * (1 + (accelerates_ ? Nncg::kSweeps : 0));
+  const double smoothing = settings_->k_gs + 2 * BlockSweeps::kMeasureSweeps;
+  const double prices = StepOdds::PricesLeft(cut / power);
+  if (meter_->Fits(prices * shares * price, (prices * smoothing - sweeps) * sweep)) return true;
+  // where sweeps have another limit than the budget, a step takes nothing from them
+  const double left = settings_->max_sweeps - SweepsMade();
+  return meter_->Fits(planned + price, left * sweep);
+}
+
+int BlockCycle::StepsTaken(int island) const {
+  return islands_[island].steps_accepted + islands_[island].steps_restored;
+}
+
+void BlockCycle::BeginRun(int island, int begin) {
+  IslandState& state = states_[island];
+  state.run_begin = begin;
+  state.start = state.quarter = state.half = {SweepsMade() - begin, state.seen.energy};
+}
+
+void BlockCycle::MarkRuns() {
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!Done(i)) states_[i].first_energy = states_[i].seen.energy;
+    if (!Open(i)) continue;
+    IslandState& state = states_[i];
+    const int sweeps = SweepsMade() - state.run_begin;
+    if (state.half.sweeps == 0) {
+      BeginRun(i, 0);
+    } else if (sweeps >= 2 * state.half.sweeps) {
+      state.quarter = std::exchange(state.half, {sweeps, state.seen.energy});
+    }
   }
 }
 
-void BlockCycle::Learn(StepChoice* choice) {
-  double first = 0, last = 0;
-  for (size_t i = 0; i < islands_.size(); ++i) {
-    if (states_[i].first_energy <= 0) continue;
-    first += states_[i].first_energy * states_[i].first_energy;
-    last += after_[i].energy * after_[i].energy;
+void BlockCycle::Learn() {
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    const IslandState& state = states_[i];
+    if (frame_->plan().islands()[i].first_body < 0) continue;
+    StepOdds& odds = steps_.odds(i);
+    odds.EndFrame(StepsTaken(i) > 0);
+    const int least = state.run_begin == 0 ? kLeastRun : kLeastRunAfterStep;
+    const int sweeps = islands_[i].sweeps - state.run_begin;
+    if (sweeps < least || state.start.sweeps == 0) continue;
+    // the last sweeps are those that a step replaces; where they end in rounding all count
+    const double energy = state.seen.energy;
+    odds.LearnSweeps(
+        std::max(StepOdds::PowerOf(state.start.sweeps, sweeps, energy / state.start.energy),
+                 StepOdds::PowerOf(state.quarter.sweeps, sweeps, energy / state.quarter.energy)));
   }
-  // also where steps were asked for and none was taken: asking took its time
-  if (first > 0) choice->Learn(steps_.asked(), -std::log(last / first + kLeastShare));
 }
 
 void BlockCycle::TakeSteps() {
@@ -139,6 +194,10 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
 
   for (int i : stepped_islands_) {
     const bool accepted = !states_[i].better_alone;
+    if (watches_ && sweeps >= kLeastSweepsAfterStep && before_[i].energy > 0) {
+      steps_.odds(i).LearnStep(StepsTaken(i), with_step_[i].energy / before_[i].energy);
+    }
+    if (accepted) BeginRun(i, SweepsMade() - sweeps);
     if (!accepted) nncg_.Forget(i);
     steps_.Judge(i, accepted);
     ++(accepted ? islands_[i].steps_accepted : islands_[i].steps_restored);

@@ -22,8 +22,13 @@ constexpr StepPrices kDoublePrices = {230, 125, 80, 0.025, 2.2, 300};
 /// The same as IslandMemory::kLeastSoftening with a budget, which mostly has more sweeps. Floats
 /// know nothing of what is smaller.
 constexpr double kLeastSofteningOfBudget = 1.0 / 32;
+/// By what the first step of a frame is thought to divide the residual before one was measured,
+/// as logarithms: medians over scenes of contacts, and over bridges and chains.
+constexpr double kContactsCut = 2.4, kJointsCut = 6.4;
 /// Per row, where the body graph is new.
 constexpr double kAnalyseRow = 20;
+/// Per row and factorisation, where there was none before; that of most scenes is 30 to 60.
+constexpr double kUnknownRow = 40;
 
 }  // namespace
 
@@ -74,6 +79,7 @@ IslandMemory* BlockSteps::MemoryOf(int island) {
   IslandMemory*& memory = memory_of_island_[island];
   if (memory == nullptr) {
     memory = memories_->Recall(keys_[island], frame_->plan().islands()[island].first_body);
+    memory->odds().Expect(in_double_[island] != 0 ? kJointsCut : kContactsCut);
   }
   return memory;
 }
@@ -95,7 +101,8 @@ double BlockSteps::PriceOfPrice(int group, std::span<const int> islands) {
       (precisions.all_double || SystemOf<float>(group).IsPreparedFor(plan, group));
   if (known) return 0;
   // graphs change, but rarely what a step on them takes
-  const double row = kAnalyseRow + MemoryOf(islands[0])->price_of_row();
+  const double last = MemoryOf(islands[0])->price_of_row();
+  const double row = kAnalyseRow + (last > 0 ? last : kUnknownRow);
   return row * static_cast<double>(frame_->plan().groups()[group].rows);
 }
 

@@ -34,6 +34,8 @@ class BlockSteps {
   double PriceOfPrice(int group, std::span<const int> islands);
   /// The island is left alone for a while: steps are too dear there.
   void Postpone(int island) { MemoryOf(island)->Postpone(); }
+  /// What steps and sweeps were seen to gain on the island.
+  StepOdds& odds(int island) { return MemoryOf(island)->odds(); }
   /// How many factorisations the next step of a group may make.
   void Limit(int group, int factorisations) { limits_[group] = factorisations; }
   /// Takes a step on some islands of a group.

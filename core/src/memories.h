@@ -7,7 +7,6 @@
 
 #include "cairn/contact_problem.h"
 #include "subspace/policy.h"
-#include "subspace/step_choice.h"
 
 namespace cairn {
 
@@ -21,8 +20,6 @@ class IslandMemories {
   IslandMemory* Recall(std::uint64_t key, int first_body);
   /// The same. @p bodies: ascending
   IslandMemory* Recall(const ContactProblem& problem, std::span<const int> bodies);
-  /// Of frames with a budget, for all islands: they share it.
-  StepChoice& choice() { return choice_; }
   /// Drops islands that have not been seen for a while.
   void EndFrame();
 
@@ -34,7 +31,6 @@ class IslandMemories {
 
   std::unordered_map<std::uint64_t, Remembered> memories_;
   int frame_ = 1;
-  StepChoice choice_;
 };
 
 }  // namespace cairn

@@ -74,6 +74,8 @@ std::string_view Describe(NoStep reason) {
       return "failed of late";
     case NoStep::kTooDear:
       return "too dear";
+    case NoStep::kSweepsFaster:
+      return "sweeps faster";
   }
   return "unknown reason";
 }

@@ -53,11 +53,12 @@ std::string_view Describe(StopReason reason);
 
 /// Why no further subspace step was taken on an island.
 enum class NoStep {
-  kNotAsked,  ///< Not by Settings, or not in this frame: frames with steps gained less of late.
-  kEnded,     ///< The iteration ended before another one was due.
-  kPaused,    ///< One was undone or too dear of late; see StepPolicy::kMeasured.
-  kTooDear,   ///< It would not have fitted the budget with its sweeps, or cost more than it can
-              ///< gain.
+  kNotAsked,      ///< Not by Settings.
+  kEnded,         ///< The iteration ended before another one was due.
+  kPaused,        ///< One was undone or too dear of late; see StepPolicy::kMeasured.
+  kTooDear,       ///< It would not have fitted the budget with its sweeps, or cost more than it can
+                  ///< gain.
+  kSweepsFaster,  ///< Sweeps are predicted to gain more in what it costs of the budget.
 };
 
 std::string_view Describe(NoStep reason);

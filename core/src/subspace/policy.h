@@ -8,6 +8,7 @@
 #include "subspace/block_system.h"
 #include "subspace/body_system.h"
 #include "subspace/step.h"
+#include "subspace/step_odds.h"
 
 namespace cairn {
 
@@ -48,6 +49,9 @@ class IslandMemory {
   double price_of_row() const { return price_of_row_; }
   void RememberPrice(double of_row) { price_of_row_ = of_row; }
 
+  /// Of blocks under a budget: what steps and sweeps gain here.
+  StepOdds& odds() { return odds_; }
+
   BodySystem& system() { return system_; }
   /// For steps on blocks: of the group whose first island this is.
   template <class T>
@@ -57,6 +61,7 @@ class IslandMemory {
   BodySystem system_;
   std::unique_ptr<BlockSystem<float>> float_system_;
   std::unique_ptr<BlockSystem<double>> double_system_;
+  StepOdds odds_;
   double softening_ = 1;  ///< factor on Settings::proximal
   double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
   double price_of_row_ = 0;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace cairn {
+
+/// What sweeps and steps were seen to do to the residual in energy of an island, and so whether a
+/// step pays under a budget. k sweeps bring the residual down to a power of 1 / k: the first ones
+/// do most. A step brings it down once, and the sweeps after it go on as if there had been none; so
+/// it costs what the last ones would have done, for which the budget does not suffice any more.
+class StepOdds {
+ public:
+  /// How many times the price of a step has to be left of the budget for it to pay, if the sweeps
+  /// that were made before it are added to what is left; infinite if it never does.
+  /// @param gain  cut() / power()
+  static double PricesLeft(double gain);
+
+  /// The power of sweeps alone that brought the residual down to this share, infinite if nothing is
+  /// left, or was. @p from, @p to: how many there were since the frame or a step began
+  static double PowerOf(int from, int to, double share);
+  void LearnSweeps(double power);
+  /// A step and the sweeps that smooth it did. @p steps: before it in the frame
+  void LearnStep(int steps, double share);
+  /// What the first step of a frame is thought to do before one was measured.
+  void Expect(double cut);
+  /// Where no step was taken, what is known of them fades into what was expected.
+  void EndFrame(bool stepped);
+  /// Sweeps were not measured for long: a frame without steps is due.
+  bool stale() const;
+
+  double power() const { return power_; }
+  /// What a step surely does, as a logarithm; less than 0 where it does harm.
+  double cut(int steps) const { return (steps == 0 ? first_.cut : later_.cut) - kMargin; }
+
+ private:
+  /// Of steps: logarithm of the residual before over that after, mean that forgets.
+  struct Cut {
+    double cut = 0;
+    bool known = false;
+  };
+
+  /// Sweeps after a step build on each other anew, and gain less at first than those in its place.
+  static constexpr double kMargin = 0.4;
+  /// What is measured on rubble; a step that is tried in vain costs more than one that is not
+  /// tried.
+  static constexpr double kExpectedPower = 2;
+
+  double power_ = kExpectedPower;
+  bool power_known_ = false;
+  int age_ = 0;  ///< frames since the power was measured
+  double expected_ = 0;
+  Cut first_, later_;
+};
+
+}  // namespace cairn
