@@ -17,6 +17,10 @@ constexpr double kStepMemory = 0.2;
 /// The same for what comes after the iteration where it took longer than thought: what is not set
 /// aside for it is overrun.
 constexpr double kFinishMemory = 0.5;
+/// What a step that is tried to learn its price may take beyond the budget [ns], as far as known.
+constexpr double kMostExploration = 1e5;
+/// Frames from one trial to the next, at first and at most.
+constexpr int kFirstPatience = 8, kLongestPatience = 256;
 /// A measurement above so many times the price was interrupted by something else.
 constexpr double kMostSurprise = 4;
 
@@ -71,7 +75,7 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
     } else {
       steps_predicted_ += units * prices_->step_ns;
       steps_time_ += now - last_;
-      Learn(ns, kStepMemory, &prices_->step_ns);
+      LearnStep(ns);
     }
   }
   last_ = now;
@@ -80,7 +84,21 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
   if (record_ != nullptr) record_->work = work();
 }
 
+void BudgetMeter::LearnStep(double ns) {
+  // what was tried first was cold, what is tried for once says more than what is long known
+  const bool news = explores_ || !prices_->step_known;
+  Learn(ns, news ? 1 : kStepMemory, &prices_->step_ns);
+  prices_->step_known = stepped_ = true;
+}
+
 void BudgetMeter::ChargeFinish() {
+  if (refused_ && !stepped_) {
+    ++prices_->frames_refused;
+  } else if (stepped_) {
+    prices_->frames_refused = 0;
+    const int longer = std::clamp(2 * prices_->frames_to_refuse, kFirstPatience, kLongestPatience);
+    prices_->frames_to_refuse = explores_ ? longer : kFirstPatience;
+  }
   if (budget_.kind() != Budget::Kind::kTime || rows_ <= 0) return;
   const double ns = Nanoseconds(Clock::now() - last_) / rows_;
   Learn(ns, ns > prices_->finish_ns ? kFinishMemory : kPriceMemory, &prices_->finish_ns);
@@ -104,16 +122,32 @@ bool BudgetMeter::Predict(double step_units, double sweep_units) const {
     case Budget::Kind::kTime:
       break;
   }
+  // sweeps end where the budget does
   const double needed =
-      kStepMargin * (step_units * prices_->step_ns + sweep_units * prices_->sweep_ns);
+      kStepMargin * step_units * prices_->step_ns + sweep_units * prices_->sweep_ns;
   return needed <= TimeLeft(Clock::now());
+}
+
+bool BudgetMeter::Explores(double step_units, double sweep_units) const {
+  if (budget_.kind() != Budget::Kind::kTime || step_units <= 0 || stepped_) return false;
+  if (prices_->frames_refused < prices_->frames_to_refuse) return false;
+  const double left = TimeLeft(Clock::now()) - sweep_units * prices_->sweep_ns;
+  // the first one was slowed down by cold caches
+  const double slowest = prices_->step_known ? std::min(prices_->step_ns, prices_->most_step_ns)
+                                             : prices_->most_step_ns;
+  return kStepMargin * step_units * prices_->least_step_ns <= left &&
+         step_units * slowest - left <= kMostExploration;
 }
 
 bool BudgetMeter::Fits(double step_units, double sweep_units) {
   if (replayed_ != nullptr) {
     return answers_ < replayed_->fits.size() && replayed_->fits[answers_++] != 0;
   }
-  const bool fits = Predict(step_units, sweep_units);
+  bool fits = Predict(step_units, sweep_units);
+  if (!fits && step_units > 0) {
+    fits = Explores(step_units, sweep_units);
+    (fits ? explores_ : refused_) = true;
+  }
   if (record_ != nullptr) record_->fits.push_back(fits ? 1 : 0);
   return fits;
 }

@@ -17,6 +17,12 @@ struct WorkPrices {
   double sweep_ns = 2;    ///< a work unit of sweeps
   double step_ns = 1.3;   ///< a work unit of steps
   double finish_ns = 10;  ///< a row, from the last sweep to the end of the Solve()
+  /// What a work unit of steps takes on fast machines and on slow ones.
+  double least_step_ns = 0.5, most_step_ns = 2.6;
+
+  bool step_known = false;   ///< one was timed
+  int frames_refused = 0;    ///< in a row, steps did not fit
+  int frames_to_refuse = 0;  ///< before the next one is tried all the same
 };
 
 /// Counts work, and says when the budget is spent. Reads the clock for Budget::Time only.
@@ -61,6 +67,10 @@ class BudgetMeter {
   /// Nanoseconds of the budget that are left for the iteration. @pre the budget is a time
   double TimeLeft(Clock::time_point now) const;
   bool Predict(double step_units, double sweep_units) const;
+  /// Whether a step that does not fit is tried, to learn what it takes: it would fit on a fast
+  /// machine, will not exceed the budget by much, and none was tried for long.
+  bool Explores(double step_units, double sweep_units) const;
+  void LearnStep(double ns);
 
   Budget budget_;
   double rows_;
@@ -73,6 +83,7 @@ class BudgetMeter {
   double steps_predicted_ = 0;  ///< [ns]
   std::chrono::nanoseconds steps_time_{0};
   bool spent_ = false;
+  bool refused_ = false, stepped_ = false, explores_ = false;  ///< steps, in this frame
 };
 
 }  // namespace cairn

@@ -64,7 +64,9 @@ struct Solver::Impl {
                  std::span<Velocity> velocities, Report* report);
 
   Settings settings;
-  WorkPrices block_prices, row_prices{.sweep_ns = 20, .step_ns = 20, .finish_ns = 30};
+  WorkPrices block_prices,
+      row_prices{
+          .sweep_ns = 20, .step_ns = 20, .finish_ns = 30, .least_step_ns = 8, .most_step_ns = 40};
   BlockSolver blocks;
   LcpSolver lcp;
   Observer observer;

@@ -263,6 +263,46 @@ TEST(Budget, OfTimeSaysWhatStepsTookAndWereToTake) {
   }
 }
 
+TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
+  using std::chrono::microseconds;
+  // 113 us by the price that is begun with, 44 on a fast machine, 182 on a slow one
+  constexpr double kUnits = 7e4;
+  WorkPrices prices;
+  const auto tries = [&prices](double units, Budget budget) {
+    // unless the machine takes a break just then
+    for (int i = 0; i < 1000; ++i) {
+      WorkPrices copy = prices;
+      BudgetMeter meter(budget, 0, &copy);
+      if (meter.Fits(units, 0)) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(tries(kUnits, Budget::Time(microseconds(100))));
+  EXPECT_FALSE(tries(kUnits, Budget::Work(100)));
+  // too much even there, or far too much where it is slow
+  EXPECT_FALSE(tries(kUnits, Budget::Time(microseconds(40))));
+  EXPECT_FALSE(tries(100 * kUnits, Budget::Time(microseconds(10000))));
+
+  // not again before so many frames had no room
+  prices.frames_to_refuse = 1;
+  EXPECT_FALSE(tries(kUnits, Budget::Time(microseconds(100))));
+  BudgetMeter meter(Budget::Time(microseconds(100)), 0, &prices);
+  EXPECT_FALSE(meter.Fits(kUnits, 0));
+  meter.ChargeFinish();
+  EXPECT_EQ(prices.frames_refused, 1);
+  EXPECT_TRUE(tries(kUnits, Budget::Time(microseconds(100))));
+
+  // a step that was timed gives the price
+  BudgetMeter timed(Budget::Time(std::chrono::hours(1)), 0, &prices);
+  EXPECT_TRUE(timed.Fits(kUnits, 0));
+  timed.Begin();
+  timed.Charge(WorkKind::kStep, 1e9);
+  timed.ChargeFinish();
+  EXPECT_TRUE(prices.step_known);
+  EXPECT_LT(prices.step_ns, 1);
+  EXPECT_EQ(prices.frames_refused, 0);
+}
+
 TEST(Budget, EndsAProblemOfAMillionRows) {
   Scene scene = MillionRows();
   const auto start = std::chrono::steady_clock::now();
