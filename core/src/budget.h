@@ -49,7 +49,8 @@ class BudgetMeter {
   bool limited() const { return budget_.kind() != Budget::Kind::kUnlimited; }
   /// Work units left, infinite unless the budget is of work.
   double work_left() const;
-  /// Whether a step of @p step_units and sweeps of @p sweep_units after it are predicted to fit.
+  /// Whether a step of @p step_units and sweeps of @p sweep_units after it are predicted to fit, or
+  /// whether one is to be tried all the same; see Explores().
   /// The answer goes to Replay::fits, or comes from there.
   bool Fits(double step_units, double sweep_units);
 
