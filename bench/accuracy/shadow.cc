@@ -92,7 +92,7 @@ ShadowFrame Shadow::Describe() const {
           .factorisations = report.factorisations,
           .accepted = report.steps_accepted,
           .restored = report.steps_restored,
-          .empty = problem.rows.empty() && problem.points.empty()};
+          .empty = AllRows(problem) == 0};
 }
 
 }  // namespace cairn::accuracy

@@ -244,7 +244,7 @@ TEST(RowProblem, LetsSolversGoAsFarAsTheBudget) {
       ASSERT_EQ(solver.Prepare(*problem), "");
       solver.IterateUntil({.iterations = {}, .time = std::chrono::milliseconds(400)});
       const RowOutcome outcome = solver.Result();
-      EXPECT_GT(outcome.steps_accepted, 3) << scene << ", time " << time;
+      EXPECT_GT(outcome.steps_accepted, 0) << scene << ", time " << time;
       EXPECT_GT(outcome.iterations, 3 * problem->limited_sweeps) << scene;
       EXPECT_EQ(outcome.stop, "budget spent");
     }

@@ -39,7 +39,7 @@ class FramesTest(cli_test.CairnTest):
             self.assertIn("recorded with 10 iterations, a limit that is lifted here", text)
             solver = self.solvers_of(self.solve_json(path, "--solver", "pgs-sm", "--budget", "400ms",
                                                      "--errors", "none"))["pgs-sm"]
-            self.assertGreater(solver["steps_accepted"], 3, scene)
+            self.assertGreater(solver["steps_accepted"], 0, scene)
             self.assertGreater(solver["sweeps"], 30, scene)
 
     def test_curves_fall_from_the_same_start_for_every_solver(self):

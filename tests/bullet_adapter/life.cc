@@ -15,6 +15,7 @@ using bench::At;
 constexpr btScalar kTimeStep = btScalar(1) / 60;
 constexpr double kHalfSide = 5;  // of the pit [m]
 constexpr int kMostPieces = 50, kFewestPieces = 12, kMostLinks = 40;
+constexpr int kForeignEvery = 500;  // frames
 // of every so many frames the last ones are left in peace
 constexpr int kPeriod = 900, kPeace = 400;
 
@@ -242,7 +243,8 @@ void Life::Disturb() {
   const int links = static_cast<int>(links_.size());
   if (links < kMostLinks && pieces < kMostPieces && Chance(0.06)) AddLimb();
   if (links < kMostLinks && Chance(0.02)) Tie();
-  if (links < kMostLinks && Chance(0.002)) AddForeign();
+  // chance alone leaves them out of some lives
+  if (frame_ % kForeignEvery == kForeignEvery / 2) AddForeign();
   if (links > 0 && Chance(0.06)) RemoveLink(Below(links));
   if (Chance(0.02)) ChangeMass();
   if (Chance(0.02)) ToggleKinematic();
