@@ -36,7 +36,7 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   // a budget is shared by steps and sweeps: what both gain is watched
   const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
   watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
-  steps_.Begin(problem, settings, frame, memories, crew, asked);
+  steps_.Begin(problem, settings, frame, memories, meter, crew, asked);
   Begin();
   while (Active()) Leg();
   meter_->Begin();

@@ -101,6 +101,9 @@ class BlockCycle {
   };
   /// Adds a step on islands of group @p g; NoStep::kEnded if it may be taken, else why not.
   NoStep PlanStep(int g, std::span<const int> islands, PlannedSteps* planned);
+  /// Likewise, whether their graph is known or was analysed for it. @p planned: with the sweeps
+  /// after this one
+  NoStep PlanGraph(int g, std::span<const int> islands, const PlannedSteps& planned);
   /// Whether it does more than the sweeps in its place; see StepOdds. @p planned: work of steps
   /// before it
   bool StepPays(int g, std::span<const int> islands, double planned, double price);

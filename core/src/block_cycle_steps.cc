@@ -55,28 +55,43 @@ void BlockCycle::FindCandidates() {
   }
 }
 
+NoStep BlockCycle::PlanGraph(int g, std::span<const int> islands, const PlannedSteps& planned) {
+  const double guess = steps_.Guess(g, islands);
+  if (guess == 0) return NoStep::kEnded;
+  const auto pays = [&](double price) { return StepPays(g, islands, planned.steps, price); };
+  if (!meter_->Fits(planned.steps + guess, planned.sweeps)) return NoStep::kTooDear;
+  if (!pays(guess)) return NoStep::kSweepsFaster;
+  const auto analysis = steps_.PriceOfAnalysis(g, islands);
+  if (analysis.whole > 0) {
+    // where the step does not fit any more after it, it will in the next frame
+    if (!meter_->Fits(planned.steps + analysis.whole, planned.sweeps)) return NoStep::kTooDear;
+    if (!pays(guess + analysis.of_step)) return NoStep::kSweepsFaster;
+    steps_.Analyse(g, islands);
+  }
+  return NoStep::kEnded;
+}
+
 NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* planned) {
   // after the step its sweeps, and, where that is not foreseen, as many without it
   const int left = settings_->max_sweeps - SweepsMade();
   const double sweeps =
       (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
   const double rows = static_cast<double>(frame_->plan().groups()[g].rows);
-  const double after = planned->sweeps + sweeps * rows;
-  const auto fits = [&](double price) { return meter_->Fits(planned->steps + price, after); };
-
-  const double unseen = steps_.PriceOfPrice(g, islands);
-  if (!fits(unseen)) return NoStep::kTooDear;
-  if (unseen > 0 && !StepPays(g, islands, planned->steps, unseen)) return NoStep::kSweepsFaster;
+  const PlannedSteps before{planned->steps, planned->sweeps + sweeps * rows};
+  if (const NoStep refused = PlanGraph(g, islands, before); refused != NoStep::kEnded) {
+    return refused;
+  }
   // as many factorisations as fit
   const bool always = settings_->step_policy == StepPolicy::kAlways;
   NoStep refused = NoStep::kTooDear;
   for (int most = settings_->k_sm; most > 0; --most) {
     const double price = steps_.Price(g, islands, most);
-    if (!(always || price <= kMostSweeps * rows) || !fits(price)) continue;
+    if (!always && price > kMostSweeps * rows) continue;
+    if (!meter_->Fits(before.steps + price, before.sweeps)) continue;
     refused = NoStep::kSweepsFaster;
-    if (!StepPays(g, islands, planned->steps, price)) continue;
+    if (!StepPays(g, islands, before.steps, price)) continue;
     steps_.Limit(g, most);
-    *planned = {.steps = planned->steps + price, .sweeps = after};
+    *planned = {before.steps + price, before.sweeps};
     return NoStep::kEnded;
   }
   return refused;
@@ -161,7 +176,7 @@ void BlockCycle::TakeSteps() {
     while (end < all.size() && plan.islands()[all[end]].group == group) ++end;
     const std::span<const int> islands = all.subspan(begin, end - begin);
     for (int i : islands) before_steps_.Take(plan, i, frame_->blocks());
-    steps_.Take(group, islands, meter_);
+    steps_.Take(group, islands);
     for (int i : islands) {
       nncg_.Forget(i);
       islands_[i].factorisations += steps_.result(i).factorisations;

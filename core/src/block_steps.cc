@@ -25,19 +25,20 @@ constexpr double kLeastSofteningOfBudget = 1.0 / 32;
 /// By what the first step of a frame is thought to divide the residual before one was measured,
 /// as logarithms: medians over scenes of contacts, and over bridges and chains.
 constexpr double kContactsCut = 2.4, kJointsCut = 6.4;
-/// Per row, where the body graph is new.
-constexpr double kAnalyseRow = 20;
+/// Per body and pair of bodies, where their graph is new.
+constexpr double kAnalyse = 300;
 /// Per row and factorisation, where there was none before; that of most scenes is 30 to 60.
 constexpr double kUnknownRow = 40;
 
 }  // namespace
 
 void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-                       IslandMemories* memories, Crew* crew, bool asked) {
+                       IslandMemories* memories, BudgetMeter* meter, Crew* crew, bool asked) {
   problem_ = &problem;
   settings_ = &settings;
   frame_ = frame;
   memories_ = memories;
+  meter_ = meter;
   crew_ = crew;
   asked_ = asked;
   has_budget_ = settings.budget.kind() != Budget::Kind::kUnlimited || settings.replay != nullptr;
@@ -93,17 +94,42 @@ BlockSystem<T>& BlockSteps::SystemOf(int group) {
   return MemoryOf(first)->block_system<T>(frame_->target());
 }
 
-double BlockSteps::PriceOfPrice(int group, std::span<const int> islands) {
+template <class Function>
+void BlockSteps::ForSystems(int group, std::span<const int> islands, const Function& function) {
   const Precisions precisions = PrecisionsOf(islands);
-  const int plan = frame_->plan_number();
-  const bool known =
-      (!precisions.some_double || SystemOf<double>(group).IsPreparedFor(plan, group)) &&
-      (precisions.all_double || SystemOf<float>(group).IsPreparedFor(plan, group));
+  if (precisions.some_double) function(SystemOf<double>(group));
+  if (!precisions.all_double) function(SystemOf<float>(group));
+}
+
+double BlockSteps::Guess(int group, std::span<const int> islands) {
+  bool known = true;
+  ForSystems(group, islands, [&](const auto& system) {
+    known = known && system.IsPreparedFor(frame_->plan_number(), group);
+  });
   if (known) return 0;
   // graphs change, but rarely what a step on them takes
   const double last = MemoryOf(islands[0])->price_of_row();
-  const double row = kAnalyseRow + (last > 0 ? last : kUnknownRow);
-  return row * static_cast<double>(frame_->plan().groups()[group].rows);
+  return (last > 0 ? last : kUnknownRow) * static_cast<double>(frame_->plan().groups()[group].rows);
+}
+
+BlockSteps::AnalysisPrice BlockSteps::PriceOfAnalysis(int group, std::span<const int> islands) {
+  AnalysisPrice price;
+  ForSystems(group, islands, [&](auto& system) {
+    if (system.Recognise(frame_->plan(), frame_->plan_number(), group)) return;
+    const double whole = kAnalyse * system.graph_size();
+    price.whole += whole;
+    price.of_step += whole / system.steps_of_analysis();
+  });
+  return price;
+}
+
+void BlockSteps::Analyse(int group, std::span<const int> islands) {
+  ForSystems(group, islands, [&](auto& system) {
+    if (system.Recognise(frame_->plan(), frame_->plan_number(), group)) return;
+    meter_->Begin();
+    system.Analyse(frame_->plan());
+    meter_->Charge(WorkKind::kAnalysis, kAnalyse * system.graph_size());
+  });
 }
 
 BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) const {
@@ -124,8 +150,7 @@ double BlockSteps::Price(int group, std::span<const int> islands, int factorisat
 template <class T>
 double BlockSteps::PriceOf(int group, int factorisations) {
   const StepPrices& prices = std::is_same_v<T, double> ? kDoublePrices : kFloatPrices;
-  BlockSystem<T>& system = SystemOf<T>(group);
-  system.Prepare(frame_->plan(), frame_->plan_number(), group);
+  const BlockSystem<T>& system = SystemOf<T>(group);
   const double lines = frame_->plan().groups()[group].x_lines;
   const double factorise = prices.line_pass * lines + prices.flops * system.flops() +
                            prices.entry * system.nonzeros() + prices.body * system.nodes();
@@ -133,14 +158,13 @@ double BlockSteps::PriceOf(int group, int factorisations) {
   return prices.line * lines + factorisations * factorise + (settings_->refinements - 1) * refine;
 }
 
-void BlockSteps::Take(int group, std::span<const int> islands, BudgetMeter* meter) {
-  TakeAs(group, islands, meter, double_step_.get());
-  TakeAs(group, islands, meter, float_step_.get());
+void BlockSteps::Take(int group, std::span<const int> islands) {
+  TakeAs(group, islands, double_step_.get());
+  TakeAs(group, islands, float_step_.get());
 }
 
 template <class T>
-void BlockSteps::TakeAs(int group, std::span<const int> islands, BudgetMeter* meter,
-                        BlockStep<T>* step) {
+void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* step) {
   const auto chosen = [this](int i) { return (in_double_[i] != 0) == std::is_same_v<T, double>; };
   if (std::none_of(islands.begin(), islands.end(), chosen)) return;
   for (int i : islands) {
@@ -151,12 +175,13 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BudgetMeter* me
                                  .factorisations = limits_[group],
                                  .refinements = settings_->refinements};
   BlockSystem<T>& system = SystemOf<T>(group);
-  meter->Begin();
+  meter_->Begin();
   const SpanClock clock(settings_->spans, 0, {SpanKind::kStep, group});
   const int made =
       step->Take(frame_->plan(), group, settings, &system, crew_, &frame_->blocks(), islands_now_);
   const double price = PriceOf<T>(group, made);
-  meter->Charge(WorkKind::kStep, price);
+  meter_->Charge(WorkKind::kStep, price);
+  system.CountStep();
   double rows = 0;
   for (int i : islands) rows += chosen(i) ? frame_->plan().islands()[i].rows : 0;
   for (int i : islands) {

@@ -21,17 +21,24 @@ class BlockSteps {
  public:
   /// A new frame. The arguments must outlive it. @p asked: steps may be taken
   void Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-             IslandMemories* memories, Crew* crew, bool asked);
+             IslandMemories* memories, BudgetMeter* meter, Crew* crew, bool asked);
 
   /// Steps may be taken at all.
   bool asked() const { return asked_; }
   /// Whether no step failed on the island of late.
   bool Due(int island);
-  /// What a step with so many factorisations costs on some islands of a group, in relaxations of
-  /// rows by kernels; what asking may cost, and what is known of the answer: it is not worth asking
-  /// where that does not fit.
+  /// What a step with one factorisation is thought to cost on some islands of a group, in
+  /// relaxations of rows by kernels, before their graph is looked at; 0 if it is known.
+  double Guess(int group, std::span<const int> islands);
+  /// What the analysis of a graph costs, and a step's share of it: it serves those on later frames,
+  /// too. Zeros if none is needed.
+  struct AnalysisPrice {
+    double whole = 0, of_step = 0;
+  };
+  AnalysisPrice PriceOfAnalysis(int group, std::span<const int> islands);
+  void Analyse(int group, std::span<const int> islands);
+  /// What a step with so many factorisations costs. @pre no analysis is needed
   double Price(int group, std::span<const int> islands, int factorisations);
-  double PriceOfPrice(int group, std::span<const int> islands);
   /// The island is left alone for a while: steps are too dear there.
   void Postpone(int island) { MemoryOf(island)->Postpone(); }
   /// What steps and sweeps were seen to gain on the island.
@@ -39,7 +46,7 @@ class BlockSteps {
   /// How many factorisations the next step of a group may make.
   void Limit(int group, int factorisations) { limits_[group] = factorisations; }
   /// Takes a step on some islands of a group.
-  void Take(int group, std::span<const int> islands, BudgetMeter* meter);
+  void Take(int group, std::span<const int> islands);
   /// What came of the last one; where it did not succeed, nothing changed.
   const StepResult& result(int island) const { return islands_[island].result; }
   /// What was charged for it: its share of the group's, by rows.
@@ -56,15 +63,19 @@ class BlockSteps {
   void ReadPlan();
   template <class T>
   BlockSystem<T>& SystemOf(int group);
+  /// function(system) for each that the islands need.
+  template <class Function>
+  void ForSystems(int group, std::span<const int> islands, const Function& function);
   template <class T>
   double PriceOf(int group, int factorisations);
   template <class T>
-  void TakeAs(int group, std::span<const int> islands, BudgetMeter* meter, BlockStep<T>* step);
+  void TakeAs(int group, std::span<const int> islands, BlockStep<T>* step);
 
   const ContactProblem* problem_ = nullptr;
   const Settings* settings_ = nullptr;
   BlockFrame* frame_ = nullptr;
   IslandMemories* memories_ = nullptr;
+  BudgetMeter* meter_ = nullptr;
   Crew* crew_ = nullptr;
   bool asked_ = false;
   bool has_budget_ = false;

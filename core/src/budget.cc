@@ -72,7 +72,7 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
     const double ns = Nanoseconds(now - last_) / units;
     if (kind == WorkKind::kSweep) {
       Learn(ns, kPriceMemory, &prices_->sweep_ns);
-    } else {
+    } else if (kind == WorkKind::kStep) {
       steps_predicted_ += units * prices_->step_ns;
       steps_time_ += now - last_;
       LearnStep(ns);

@@ -9,8 +9,12 @@
 
 namespace cairn {
 
-/// What kind of work is charged: each has its own price in nanoseconds.
-enum class WorkKind { kSweep, kStep };
+/// What kind of work is charged, each at its price in nanoseconds.
+enum class WorkKind {
+  kSweep,
+  kStep,
+  kAnalysis,  ///< At the price of steps; it comes too rarely to be learnt.
+};
 
 /// Nanoseconds that work takes on this machine, learnt from timed frames; see BudgetMeter.
 struct WorkPrices {

@@ -78,9 +78,10 @@ class Frame {
     world_.Step(number);
     capturing_.CaptureNext(&substep_);
     world_.Step(1);
-    const std::string folder =
-        testing::TempDir() + "/frame" + std::to_string(8 * sizeof(btScalar)) + "_";
-    path_ = folder + std::string(scene) + std::to_string(number) + ".cairn";
+    // tests run side by side
+    path_ = testing::TempDir() + "/frame" + std::to_string(8 * sizeof(btScalar)) + "_" +
+            testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
+            std::string(scene) + std::to_string(number) + ".cairn";
     bullet::Options options{.mode = mode};
     options.warm_start_friction = options.warm_start_joints = false;
     bullet::ConstraintSolver recording({}, options);

@@ -162,27 +162,47 @@ TEST(BlockSystem, IsAnalysedAgainOnlyWhereMuchHasChanged) {
   Plan plan;
   test::MakePlan(scene, 1, &plan);
   BlockSystem<float> system(simd::BestTarget());
-  system.Prepare(plan, 1, 0);
-  EXPECT_TRUE(system.analysed());
-  system.Prepare(plan, 2, 0);
-  EXPECT_FALSE(system.analysed());
+  EXPECT_FALSE(system.Recognise(plan, 1, 0));
+  system.Analyse(plan);
+  EXPECT_TRUE(system.Recognise(plan, 2, 0));
 
   Scene fewer = scene;  // the last brick loses one of its two faces
   fewer.rows.resize(fewer.rows.size() - 12);
   test::MakePlan(fewer, 1, &plan);
-  system.Prepare(plan, 3, 0);
-  EXPECT_FALSE(system.analysed());
+  EXPECT_TRUE(system.Recognise(plan, 3, 0));
   test::MakePlan(scene, 1, &plan);
-  system.Prepare(plan, 4, 0);
-  EXPECT_FALSE(system.analysed()) << "the pair is back";
+  EXPECT_TRUE(system.Recognise(plan, 4, 0)) << "the pair is back";
 
   const int a = 0, b = 55;
   const Eigen::Vector3d point(0, 0, 0);
   test::AddContact(&scene, test::PointRow(scene, a, b, point, Eigen::Vector3d::UnitZ()), point,
                    0.5);
   test::MakePlan(scene, 1, &plan);
-  system.Prepare(plan, 5, 0);
-  EXPECT_TRUE(system.analysed()) << "a pair that it has no place for";
+  EXPECT_FALSE(system.Recognise(plan, 5, 0)) << "a pair that it has no place for";
+  EXPECT_FALSE(system.IsPreparedFor(5, 0));
+  test::MakePlan(fewer, 1, &plan);
+  EXPECT_TRUE(system.Recognise(plan, 6, 0)) << "what was not analysed is forgotten";
+}
+
+// An analysis is an investment: what graphs last decides whether it pays.
+TEST(BlockSystem, ExpectsAsManyStepsOfAnAnalysisAsOthersServed) {
+  Plan plan;
+  BlockSystem<float> system(simd::BestTarget());
+  const auto analyse = [&](int bricks, int number) {
+    test::MakePlan(test::Wall(bricks, 3), 1, &plan);
+    ASSERT_FALSE(system.Recognise(plan, number, 0));
+    system.Analyse(plan);
+  };
+  const double at_first = system.steps_of_analysis();
+  EXPECT_GT(at_first, 1);
+  analyse(4, 1);
+  EXPECT_EQ(system.steps_of_analysis(), at_first) << "nothing is known yet";
+  for (int step = 0; step < 100; ++step) system.CountStep();
+  EXPECT_EQ(system.steps_of_analysis(), 100) << "it serves";
+  analyse(5, 2);
+  EXPECT_NEAR(system.steps_of_analysis(), 50, 10);
+  for (int number = 4; number < 20; ++number) analyse(4 + number % 2, number);
+  EXPECT_NEAR(system.steps_of_analysis(), 1, 0.01) << "none of them served for long";
 }
 
 TEST(BlockSystem, KeepsAPlaceForPairsThatComeAndGo) {
@@ -198,8 +218,8 @@ TEST(BlockSystem, KeepsAPlaceForPairsThatComeAndGo) {
   BlockSystem<float> system(simd::BestTarget());
   for (int frame = 0; frame < 6; ++frame) {
     test::MakePlan(scenes[frame % 2], 1, &plan);
-    system.Prepare(plan, frame, 0);
-    EXPECT_EQ(system.analysed(), frame < 2) << frame;
+    EXPECT_EQ(system.Recognise(plan, frame, 0), frame >= 2) << frame;
+    if (frame < 2) system.Analyse(plan);
   }
 }
 

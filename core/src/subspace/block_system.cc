@@ -12,6 +12,8 @@ using simd::kLanes;
 /// A graph that was analysed for more pairs than there are is kept while there are this many of
 /// them: what it wastes is less than a new analysis costs.
 constexpr double kLeastShareOfPairs = 0.8;
+/// Weight of the last analysis in the mean of steps that one serves.
+constexpr double kNewestAnalysis = 0.5;
 
 }  // namespace
 
@@ -20,21 +22,30 @@ BlockSystem<T>::BlockSystem(simd::Target target)
     : products_(simd::PairProductsFor<T>(target)), cholesky_(target) {}
 
 template <class T>
-void BlockSystem<T>::Prepare(const Plan& plan, int plan_number, int index) {
-  analysed_ = false;
-  if (IsPreparedFor(plan_number, index)) return;
+bool BlockSystem<T>::Recognise(const Plan& plan, int plan_number, int index) {
+  if (IsFor(plan_number, index)) return prepared_;
   plan_number_ = plan_number;
   group_ = index;
   const Group& group = plan.groups()[index];
   FindBodies(plan, group);
-  const bool same = bodies_now_ == bodies_;
-  if (same && FindLanes(plan, group)) return;
-  if (!same) pairs_.clear();
+  CountLanes(plan, group);
+  prepared_ = bodies_now_ == bodies_ && FindLanes(plan, group);
+  return prepared_;
+}
+
+template <class T>
+void BlockSystem<T>::Analyse(const Plan& plan) {
+  const Group& group = plan.groups()[group_];
+  if (bodies_now_ != bodies_) pairs_.clear();
+  if (!bodies_.empty()) {
+    expected_steps_ += kNewestAnalysis * (std::max(1.0, steps_) - expected_steps_);
+  }
+  steps_ = 0;
   bodies_ = bodies_now_;
   FindPairs(plan, group);
   cholesky_.Analyse(nodes(), 6, pairs_);
   FindLanes(plan, group);
-  analysed_ = true;
+  prepared_ = true;
 }
 
 template <class T>
@@ -49,6 +60,14 @@ void BlockSystem<T>::FindBodies(const Plan& plan, const Group& group) {
   for (size_t node = 0; node < bodies_now_.size(); ++node) {
     const int slot = plan.slot_of_body()[bodies_now_[node]];
     node_of_slot_[slot - first_slot_] = static_cast<int>(node);
+  }
+}
+
+template <class T>
+void BlockSystem<T>::CountLanes(const Plan& plan, const Group& group) {
+  lanes_ = 0;
+  for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
+    lanes_ += block.form == simd::PairForm::kSingle ? 0 : block.lanes;
   }
 }
 
@@ -80,7 +99,7 @@ void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
 template <class T>
 bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
   pair_of_lane_.assign(static_cast<size_t>(group.blocks) * kLanes, -1);
-  size_t at = 0, lanes = 0;
+  size_t at = 0;
   for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
     const bool joins = block.form != simd::PairForm::kSingle;
     for (int lane = 0; lane < block.lanes && joins; ++lane) {
@@ -88,11 +107,10 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
       const auto known = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
       if (known == pairs_.end() || *known != pair) return false;
       pair_of_lane_[at + static_cast<size_t>(lane)] = static_cast<int>(known - pairs_.begin());
-      ++lanes;
     }
     at += kLanes;
   }
-  return static_cast<double>(lanes) >= kLeastShareOfPairs * static_cast<double>(pairs_.size());
+  return lanes_ >= kLeastShareOfPairs * static_cast<double>(pairs_.size());
 }
 
 template <class T>

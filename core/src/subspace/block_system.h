@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,23 +23,33 @@ class BlockSystem {
  public:
   explicit BlockSystem(simd::Target target);
 
-  /// Finds the bodies of the group and which of them touch, and analyses that graph unless the one
-  /// of an earlier call holds it and little more. Pairs of that one stay in it if they are few. @p
-  /// plan_number: changes with the plan.
-  void Prepare(const Plan& plan, int plan_number, int group);
-  /// Prepare() has nothing to do.
+  /// Finds the bodies of the group and which of them touch. False if that graph has to be analysed:
+  /// if the one that was last analysed does not hold it, or much more. @p plan_number: changes with
+  /// the plan.
+  bool Recognise(const Plan& plan, int plan_number, int group);
+  /// Recognise() was the last call for this group of this plan, and the graph is ready.
   bool IsPreparedFor(int plan_number, int group) const {
-    return plan_number == plan_number_ && group == group_;
+    return prepared_ && IsFor(plan_number, group);
   }
-  /// The last Prepare() had to analyse.
-  bool analysed() const { return analysed_; }
+  /// Analyses the graph that was not recognised. Pairs of the one before stay in it if they are
+  /// few.
+  void Analyse(const Plan& plan);
+  /// Both.
+  void Prepare(const Plan& plan, int plan_number, int group) {
+    if (!Recognise(plan, plan_number, group)) Analyse(plan);
+  }
+  /// Bodies and pairs of bodies of the group: what an analysis is to look at.
+  double graph_size() const { return static_cast<double>(nodes() + lanes_); }
+  /// How many steps an analysis is expected to serve, >= 1: a mean that forgets.
+  double steps_of_analysis() const { return std::max(expected_steps_, steps_); }
+  void CountStep() { ++steps_; }
 
   /// Multiply-adds of a factorisation, and entries of the factor.
   double flops() const { return cholesky_.pattern().flops(); }
   double nonzeros() const { return cholesky_.pattern().nonzeros(); }
 
   /// Bodies of the group that can move: each is a node.
-  int nodes() const { return static_cast<int>(bodies_.size()); }
+  int nodes() const { return static_cast<int>(bodies_now_.size()); }
   /// The node of a slot, -1 for the world.
   int node_of_slot(int slot) const {
     return slot == 0 ? -1 : node_of_slot_[static_cast<size_t>(slot - first_slot_)];
@@ -53,7 +64,11 @@ class BlockSystem {
   void Solve(std::span<T> rhs) { cholesky_.Solve(rhs); }
 
  private:
+  bool IsFor(int plan_number, int group) const {
+    return plan_number == plan_number_ && group == group_;
+  }
   void FindBodies(const Plan& plan, const Group& group);
+  void CountLanes(const Plan& plan, const Group& group);
   bool FindLanes(const Plan& plan, const Group& group);
   void FindPairs(const Plan& plan, const Group& group);
   NodePair PairOf(const simd::PairBlock& block, int lane) const;
@@ -61,7 +76,7 @@ class BlockSystem {
 
   const simd::PairProducts<T>& products_;
   FrontCholesky<T> cholesky_;
-  bool analysed_ = false;
+  bool prepared_ = false;
   int plan_number_ = -1, group_ = -1;
   int first_slot_ = 0;
   std::vector<int> bodies_, bodies_now_;  ///< ascending problem indices
@@ -69,6 +84,11 @@ class BlockSystem {
   std::vector<NodePair> pairs_;  ///< of the analysed graph
   std::vector<NodePair> known_pairs_, all_pairs_;
   std::vector<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
+  int lanes_ = 0;                  ///< where two do
+  double steps_ = 0, expected_steps_ = kExpectedSteps;  ///< of this analysis, and of others
+
+  /// Before anything is known: what begins to be piled up goes on so for some frames.
+  static constexpr double kExpectedSteps = 4;
 };
 
 extern template class BlockSystem<float>;
