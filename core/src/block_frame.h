@@ -9,6 +9,7 @@
 #include "cairn/report.h"
 #include "crew.h"
 #include "plan.h"
+#include "simd/lane_numbers.h"
 #include "simd/pair_sweep.h"
 
 namespace cairn {
@@ -35,6 +36,7 @@ class BlockFrame {
   std::span<double> scales() { return scales_; }
   simd::Target target() const { return target_; }
   const simd::PairKernels& kernels() const { return *kernels_; }
+  const simd::LaneKernels& lane_kernels() const { return *lane_kernels_; }
 
   /// The work of some blocks of the plan.
   simd::PairWork WorkOn(int first_block, int blocks);
@@ -50,6 +52,7 @@ class BlockFrame {
 
   const simd::Target target_ = simd::ChooseTarget().target;
   const simd::PairKernels* kernels_ = &simd::PairKernelsFor(target_);
+  const simd::LaneKernels* lane_kernels_ = &simd::LaneKernelsFor(target_);
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
   simd::JointRowsKernel pack_joints_ = simd::JointRowsKernelFor(target_);
   simd::ContactRowsKernel pack_contacts_ = simd::ContactRowsKernelFor(target_);

@@ -154,6 +154,7 @@ simd::PairBlock& Plan::AddBlock(int pair) {
   data_lines_ += simd::PairLines(of.form) + shapes_.lines(of.form, of.shape);
   x_lines_ += of.rows;
   pair_of_lane_.resize(blocks_.size() * kLanes, -1);
+  island_of_lane_.resize(blocks_.size() * kLanes, -1);
   colour_of_block_.push_back(colouring_.colours()[pair]);
   return block;
 }
@@ -161,7 +162,9 @@ simd::PairBlock& Plan::AddBlock(int pair) {
 void Plan::AddLane(int pair, simd::PairBlock* block) {
   const Pair& of = list_.pairs[pair];
   const int index = static_cast<int>(block - blocks_.data());
-  pair_of_lane_[index * kLanes + block->lanes] = pair;
+  const int lane = index * kLanes + block->lanes;
+  pair_of_lane_[lane] = pair;
+  island_of_lane_[lane] = island_of_pair_[pair];
   block->a[block->lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
   block->b[block->lanes] = of.b == kWorld ? 0 : slot_of_body_[of.b];
   ++block->lanes;
@@ -198,6 +201,7 @@ simd::PairBlock* Plan::FindOpenBlock(int index, size_t first_block) {
 void Plan::FillBlocks() {
   blocks_.clear();
   pair_of_lane_.clear();
+  island_of_lane_.clear();
   colour_of_block_.clear();
   data_lines_ = x_lines_ = 0;
   size_t i = 0;

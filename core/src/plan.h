@@ -60,9 +60,9 @@ class Plan {
   const Pair& pair(int block, int lane) const {
     return list_.pairs[pair_of_lane_[block * simd::kLanes + lane]];
   }
-  int island_of(int block, int lane) const {
-    return island_of_pair_[pair_of_lane_[block * simd::kLanes + lane]];
-  }
+  int island_of(int block, int lane) const { return islands_of(block)[lane]; }
+  /// Islands of all lanes, -1 for those that are not used.
+  const int* islands_of(int block) const { return &island_of_lane_[block * simd::kLanes]; }
   /// Problem rows of a pair. @pre it is made of rows
   std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
 
@@ -112,7 +112,7 @@ class Plan {
   std::vector<PairKey> keys_;
   std::vector<int> order_;  ///< pairs in the order of a sweep
   std::vector<simd::PairBlock> blocks_;
-  std::vector<int> pair_of_lane_;
+  std::vector<int> pair_of_lane_, island_of_lane_;
   std::vector<int> colour_of_block_;
   std::vector<int> slot_of_body_, body_of_slot_;
   std::vector<Unit> units_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -18,13 +17,6 @@ constexpr int kEnergyBits = 30;
 double ScaleOf(double largest) {
   const bool scalable = largest > 0 && std::isfinite(largest);
   return scalable ? std::ldexp(1.0, kEnergyBits - 1 - std::ilogb(largest)) : 1;
-}
-
-/// Without its fraction: std::floor() of what is not negative, which is a call on old instruction
-/// sets.
-double Whole(double number) {
-  constexpr double kWholeFrom = 1e15;
-  return number < kWholeFrom ? static_cast<double>(static_cast<std::int64_t>(number)) : number;
 }
 
 }  // namespace
@@ -169,7 +161,7 @@ void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residu
   ForLanes(group, [&](const simd::BlockError& error, int block, int lane) {
     const int island = plan.island_of(block, lane);
     residuals[island].energy +=
-        Whole(static_cast<double>(error.energy.lane[lane]) * scales[island]);
+        simd::Rounded(static_cast<double>(error.energy.lane[lane]) * scales[island]);
   });
   for (int island : islands) {
     residuals[island].energy = std::sqrt(residuals[island].energy / scales[island]);
@@ -177,23 +169,21 @@ void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residu
 }
 
 Residual BlockSweeps::ErrorOfGroup(const Group& group) const {
-  // lane by lane, which compilers make vector instructions of
-  simd::Line max = {}, angular = {}, energy = {};
-  ForLanes(group, [&](const simd::BlockError& error, int, int lane) {
-    max.lane[lane] = std::max(max.lane[lane], error.max.lane[lane]);
-    angular.lane[lane] = std::max(angular.lane[lane], error.max_angular.lane[lane]);
-    energy.lane[lane] = std::max(energy.lane[lane], error.energy.lane[lane]);
-  });
-  const auto largest = [](const simd::Line& line) {
+  const simd::LaneKernels& kernels = frame_->lane_kernels();
+  const simd::PairBlock* const blocks = frame_->plan().blocks().data() + group.first_block;
+  const simd::BlockError* const errors = frame_->errors().data() + group.first_block;
+  simd::BlockError largest = {};
+  kernels.find_largest(blocks, errors, group.blocks, &largest);
+  const auto largest_of = [](const simd::Line& line) {
     return static_cast<double>(*std::max_element(line.lane, line.lane + simd::kLanes));
   };
-  const double scale = ScaleOf(largest(energy));
-  double sum[simd::kLanes] = {};
-  ForLanes(group, [&](const simd::BlockError& error, int, int lane) {
-    sum[lane] += Whole(static_cast<double>(error.energy.lane[lane]) * scale);
-  });
-  const double whole = std::accumulate(sum, sum + simd::kLanes, 0.0);
-  return {.max = largest(max), .max_angular = largest(angular), .energy = std::sqrt(whole / scale)};
+  const double scale = ScaleOf(largest_of(largest.energy));
+  double sums[simd::kLanes] = {};
+  kernels.add_energies(blocks, errors, group.blocks, scale, sums);
+  const double whole = std::accumulate(sums, sums + simd::kLanes, 0.0);
+  return {.max = largest_of(largest.max),
+          .max_angular = largest_of(largest.max_angular),
+          .energy = std::sqrt(whole / scale)};
 }
 
 template <class Function>

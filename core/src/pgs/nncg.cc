@@ -4,22 +4,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "simd/flush_denormals.h"
-
 namespace cairn {
 namespace {
 
-/// The arrays of a line or a body are apart: the compiler makes vector instructions of this.
-template <int n>
-inline void MoveNumbers(const float* __restrict beta, const float* __restrict keep,
-                        float* __restrict now, float* __restrict last,
-                        float* __restrict direction) {
-  for (int i = 0; i < n; ++i) {
-    const float moved = now[i] + beta[i] * direction[i];
-    direction[i] = keep[i] * (moved - last[i]);
-    now[i] = last[i] = moved;
-  }
-}
+/// The island of what belongs to none, as in Plan::islands_of().
+constexpr int kNone = -1;
 
 }  // namespace
 
@@ -27,7 +16,11 @@ inline void MoveNumbers(const float* __restrict beta, const float* __restrict ke
 class Nncg::Pass final : public StagedWork {
  public:
   Pass(std::span<const GroupSweeps> groups, BlockFrame* frame, Nncg* nncg)
-      : groups_(groups), plan_(frame->plan()), now_(frame->blocks()), nncg_(*nncg) {}
+      : groups_(groups),
+        plan_(frame->plan()),
+        kernels_(frame->lane_kernels()),
+        now_(frame->blocks()),
+        nncg_(*nncg) {}
 
   int stages() const override { return 1; }
   int units(int) const override {
@@ -43,7 +36,6 @@ class Nncg::Pass final : public StagedWork {
     const int blocks = static_cast<int>(plan_.units().size());
     const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
     if (!groups_[group].active) return;
-    const simd::FlushDenormals flush;
     if (unit < blocks) {
       MoveImpulses(plan_.units()[unit]);
     } else {
@@ -55,44 +47,41 @@ class Nncg::Pass final : public StagedWork {
   void MoveImpulses(const Unit& unit) {
     for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
       const simd::PairBlock& block = plan_.blocks()[b];
-      simd::Line beta = {}, keep = {};  // of unused lanes: nothing moves
-      for (int l = 0; l < block.lanes; ++l) {
-        const Way& way = nncg_.ways_[plan_.island_of(b, l)];
-        beta.lane[l] = way.beta;
-        keep.lane[l] = way.keep;
-      }
-      for (size_t i = block.x; i < block.x + static_cast<size_t>(block.row_count); ++i) {
-        MoveNumbers<simd::kLanes>(beta.lane, keep.lane, now_.x[i].lane, nncg_.last_.x[i].lane,
-                                  nncg_.direction_.x[i].lane);
-      }
+      kernels_.move_lines(
+          &nncg_.WayOf(0), plan_.islands_of(b), block.row_count,
+          {&now_.x[block.x], &nncg_.last_.x[block.x], &nncg_.direction_.x[block.x]});
     }
   }
 
   void MoveBodies(const Group& group) {
-    simd::BodyLane beta, keep;
-    for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
-      const int body = plan_.body_of_slot()[slot];
-      if (body == kWorld) continue;
-      const Way way = nncg_.ways_[plan_.island_of_body()[body]];
-      std::fill_n(beta.u, 8, way.beta);
-      std::fill_n(keep.u, 8, way.keep);
-      MoveNumbers<8>(beta.u, keep.u, now_.bodies[slot].u, nncg_.last_.bodies[slot].u,
-                     nncg_.direction_.bodies[slot].u);
-    }
+    const int slot = group.first_slot;
+    kernels_.move_bodies(
+        &nncg_.WayOf(0), &nncg_.island_of_slot_[slot], group.slots,
+        {&now_.bodies[slot], &nncg_.last_.bodies[slot], &nncg_.direction_.bodies[slot]});
   }
 
   std::span<const GroupSweeps> groups_;
   const Plan& plan_;
+  const simd::LaneKernels& kernels_;
   BlockData& now_;
   Nncg& nncg_;
 };
 
 void Nncg::Begin(const BlockFrame& frame) {
-  ways_.assign(frame.plan().islands().size(), {});
+  ways_.assign(frame.plan().islands().size() + 1, {});
+  energies_.assign(frame.plan().islands().size(), 0);
   known_ = false;
   if (plan_number_ == frame.plan_number()) return;
   plan_number_ = frame.plan_number();
-  FindEnds(frame.plan());
+  ReadPlan(frame.plan());
+}
+
+void Nncg::ReadPlan(const Plan& plan) {
+  FindEnds(plan);
+  island_of_slot_.clear();
+  for (int body : plan.body_of_slot()) {
+    island_of_slot_.push_back(body == kWorld ? kNone : plan.island_of_body()[body]);
+  }
 }
 
 void Nncg::FindEnds(const Plan& plan) {
@@ -122,18 +111,22 @@ void Nncg::ForgetWhereRowsEnd(int sweeps) {
   }
 }
 
-void Nncg::Forget(int island) { ways_[island] = {}; }
+void Nncg::Forget(int island) {
+  WayOf(island) = {};
+  energies_[island] = 0;
+}
 
-void Nncg::ForgetAll() { std::fill(ways_.begin(), ways_.end(), Way{}); }
+void Nncg::ForgetAll() {
+  std::fill(ways_.begin(), ways_.end(), simd::Way{});
+  std::fill(energies_.begin(), energies_.end(), 0);
+}
 
 void Nncg::See(int island, double energy) {
-  Way& way = ways_[island];
-  const bool first = way.energy == 0;
-  const double ratio = first ? 0 : energy / way.energy;
+  const double before = std::exchange(energies_[island], energy);
+  const double ratio = before == 0 ? 0 : energy / before;
   const bool shrinks = ratio <= 1;
-  way = {.beta = shrinks ? static_cast<float>(ratio * ratio) : 0,
-         .keep = shrinks ? 1.0f : 0.0f,
-         .energy = energy};
+  WayOf(island) = {.beta = shrinks ? static_cast<float>(ratio * ratio) : 0,
+                   .keep = shrinks ? 1.0f : 0.0f};
 }
 
 void Nncg::MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame) {

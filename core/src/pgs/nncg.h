@@ -38,20 +38,20 @@ class Nncg {
 
  private:
   class Pass;
+  void ReadPlan(const Plan& plan);
   void FindEnds(const Plan& plan);
+  simd::Way& WayOf(int island) { return ways_[static_cast<size_t>(island) + 1]; }
   /// One number for each part of the state.
   struct State {
     std::vector<simd::Line> x;
     std::vector<simd::BodyLane> bodies;
   };
 
-  /// How an island goes on along its direction.
-  struct Way {
-    float beta = 0;     ///< so much further
-    float keep = 0;     ///< 0 where the direction is to be forgotten, else 1
-    double energy = 0;  ///< of the last sweep; 0 if there was none
-  };
-  std::vector<Way> ways_;  ///< by island
+  /// How islands go on along their directions; the first one is of what belongs to none, and does
+  /// not move.
+  std::vector<simd::Way> ways_;
+  std::vector<double> energies_;  ///< by island, of the last sweep; 0 if there was none
+  std::vector<int> island_of_slot_;
   /// Rows of an island do not take part in further sweeps than that.
   struct End {
     int sweeps, island;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Passes over numbers of lanes that relax nothing. Compiled once per target.
+#if defined(CAIRN_SIMD_LANE_NUMBERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAIRN_SIMD_LANE_NUMBERS_INL_H_
+#undef CAIRN_SIMD_LANE_NUMBERS_INL_H_
+#else
+#define CAIRN_SIMD_LANE_NUMBERS_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include "simd/flush_denormals.h"
+#include "simd/lane_numbers.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cairn::simd {
+namespace HWY_NAMESPACE {
+namespace numbers {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <int most, class V>
+HWY_INLINE void Move(hn::CappedTag<float, most> d, V beta, V keep, float* now, float* last,
+                     float* direction) {
+  const V along = hn::Load(d, direction);
+  const V moved = hn::Add(hn::Load(d, now), hn::Mul(beta, along));
+  hn::Store(hn::Mul(keep, hn::Sub(moved, hn::Load(d, last))), d, direction);
+  hn::Store(moved, d, now);
+  hn::Store(moved, d, last);
+}
+
+inline void MoveLines(const Way* ways, const std::int32_t* of_lane, int count,
+                      const Moving<Line>& numbers) {
+  const FlushDenormals flush;
+  const hn::CappedTag<float, kLanes> d;
+  const hn::RebindToSigned<decltype(d)> d_index;
+  for (int l = 0; l < kLanes; l += static_cast<int>(hn::MaxLanes(d))) {
+    const auto index = hn::ShiftLeft<1>(hn::LoadU(d_index, of_lane + l));
+    const auto beta = hn::GatherIndex(d, &ways->beta, index);
+    const auto keep = hn::GatherIndex(d, &ways->keep, index);
+    for (int i = 0; i < count; ++i) {
+      Move<kLanes>(d, beta, keep, numbers.now[i].lane + l, numbers.last[i].lane + l,
+                   numbers.direction[i].lane + l);
+    }
+  }
+}
+
+inline void MoveBodies(const Way* ways, const std::int32_t* of_body, int count,
+                       const Moving<BodyLane>& numbers) {
+  constexpr int kNumbers = 8;
+  const FlushDenormals flush;
+  const hn::CappedTag<float, kNumbers> d;
+  for (int i = 0; i < count; ++i) {
+    const Way& way = ways[of_body[i]];
+    const auto beta = hn::Set(d, way.beta), keep = hn::Set(d, way.keep);
+    for (int k = 0; k < kNumbers; k += static_cast<int>(hn::MaxLanes(d))) {
+      Move<kNumbers>(d, beta, keep, numbers.now[i].u + k, numbers.last[i].u + k,
+                     numbers.direction[i].u + k);
+    }
+  }
+}
+
+inline void FindLargest(const PairBlock* blocks, const BlockError* errors, int count,
+                        BlockError* largest) {
+  const hn::CappedTag<float, kLanes> d;
+  for (int l = 0; l < kLanes; l += static_cast<int>(hn::MaxLanes(d))) {
+    auto max = hn::Load(d, largest->max.lane + l);
+    auto angular = hn::Load(d, largest->max_angular.lane + l);
+    auto energy = hn::Load(d, largest->energy.lane + l);
+    for (int b = 0; b < count; ++b) {
+      const auto used =
+          hn::FirstN(d, static_cast<size_t>(blocks[b].lanes > l ? blocks[b].lanes - l : 0));
+      // comparisons with what is not a number are false
+      const auto raise = [&](const Line& line, auto* to) HWY_ATTR {
+        const auto number = hn::Load(d, line.lane + l);
+        *to = hn::IfThenElse(hn::And(used, hn::Lt(*to, number)), number, *to);
+      };
+      raise(errors[b].max, &max);
+      raise(errors[b].max_angular, &angular);
+      raise(errors[b].energy, &energy);
+    }
+    hn::Store(max, d, largest->max.lane + l);
+    hn::Store(angular, d, largest->max_angular.lane + l);
+    hn::Store(energy, d, largest->energy.lane + l);
+  }
+}
+
+/// A plain loop, which the compiler turns into vectors.
+inline void AddEnergies(const PairBlock* blocks, const BlockError* errors, int count, double scale,
+                        double* sums) {
+  double all[kLanes];
+  for (int l = 0; l < kLanes; ++l) all[l] = sums[l];
+  for (int b = 0; b < count; ++b) {
+    for (int l = 0; l < kLanes; ++l) {
+      const float energy = l < blocks[b].lanes ? errors[b].energy.lane[l] : 0;
+      all[l] += Rounded(static_cast<double>(energy) * scale);
+    }
+  }
+  for (int l = 0; l < kLanes; ++l) sums[l] = all[l];
+}
+
+constexpr LaneKernels MakeLaneKernels() {
+  return {MoveLines, MoveBodies, FindLargest, AddEnergies};
+}
+
+}  // namespace numbers
+}  // namespace HWY_NAMESPACE
+}  // namespace cairn::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

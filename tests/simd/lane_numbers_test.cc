@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Passes over numbers of lanes against loops written out, on every target.
+#include "simd/lane_numbers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "pair_blocks.h"
+
+namespace cairn::simd {
+namespace {
+
+using test::Random;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+template <class Numbers>
+float* At(std::vector<Numbers>* numbers, size_t i) {
+  return reinterpret_cast<float*>(numbers->data()) + i;
+}
+
+/// Numbers of a state, its last one and the direction.
+template <class Numbers>
+struct State {
+  std::vector<Numbers> now, last, direction;
+
+  State(size_t count, Random* random) {
+    for (auto* part : {&now, &last, &direction}) {
+      part->resize(count);
+      for (size_t i = 0; i < count * sizeof(Numbers) / sizeof(float); ++i) {
+        *At(part, i) = static_cast<float>(random->Uniform(-1, 1));
+      }
+    }
+  }
+  Moving<Numbers> moving() { return {now.data(), last.data(), direction.data()}; }
+  void Move(size_t i, const Way& way) {
+    const float moved = *At(&now, i) + way.beta * *At(&direction, i);
+    *At(&direction, i) = way.keep * (moved - *At(&last, i));
+    *At(&now, i) = *At(&last, i) = moved;
+  }
+  bool SameBits(const State& other) const {
+    const auto same = [](const std::vector<Numbers>& a, const std::vector<Numbers>& b) {
+      return std::memcmp(a.data(), b.data(), a.size() * sizeof(Numbers)) == 0;
+    };
+    return same(now, other.now) && same(last, other.last) && same(direction, other.direction);
+  }
+};
+
+// The first way is of lanes and slots that belong to no island.
+const std::vector<Way> kWays = {{0, 0}, {0.25f, 1}, {0.9f, 1}, {0, 0}, {0.5f, 1}};
+
+TEST(LaneNumbers, MoveLinesOfEveryLaneInItsWay) {
+  for (const Target target : SupportedTargets()) {
+    for (const int count : {0, 1, 12}) {
+      Random random(3);
+      State<Line> state(static_cast<size_t>(count), &random);
+      State<Line> expected = state;
+      std::int32_t of_lane[kLanes];
+      for (int l = 0; l < kLanes; ++l) of_lane[l] = l < 13 ? random.Index(4) : -1;
+      for (int i = 0; i < count * kLanes; ++i) {
+        expected.Move(static_cast<size_t>(i), kWays[static_cast<size_t>(of_lane[i % kLanes] + 1)]);
+      }
+      LaneKernelsFor(target).move_lines(&kWays[1], of_lane, count, state.moving());
+      EXPECT_TRUE(state.SameBits(expected)) << TargetName(target) << ", " << count << " lines";
+    }
+  }
+}
+
+TEST(LaneNumbers, MoveBodiesOfEveryIslandInItsWay) {
+  for (const Target target : SupportedTargets()) {
+    for (const int count : {0, 1, 7, 30}) {
+      Random random(4);
+      State<BodyLane> state(static_cast<size_t>(count), &random);
+      State<BodyLane> expected = state;
+      std::vector<std::int32_t> of_body(static_cast<size_t>(count));
+      for (std::int32_t& island : of_body) island = random.Index(5) - 1;
+      for (int i = 0; i < 8 * count; ++i) {
+        expected.Move(static_cast<size_t>(i),
+                      kWays[static_cast<size_t>(of_body[static_cast<size_t>(i / 8)] + 1)]);
+      }
+      LaneKernelsFor(target).move_bodies(&kWays[1], of_body.data(), count, state.moving());
+      EXPECT_TRUE(state.SameBits(expected)) << TargetName(target) << ", " << count << " bodies";
+    }
+  }
+}
+
+/// Errors of blocks with 1 to 16 lanes in use, and something in the others that counts for nothing.
+struct Errors {
+  std::vector<PairBlock> blocks;
+  std::vector<BlockError> errors;
+
+  Errors(int count, float unused, unsigned seed = 5) : blocks(count), errors(count) {
+    Random random(seed);
+    for (size_t b = 0; b < blocks.size(); ++b) {
+      blocks[b].lanes = 1 + random.Index(kLanes);
+      for (int l = 0; l < kLanes; ++l) {
+        for (Line* line : {&errors[b].max, &errors[b].max_angular, &errors[b].energy}) {
+          const auto number = static_cast<float>(random.Uniform(0, 1));
+          line->lane[l] = l < blocks[b].lanes ? number : unused;
+        }
+      }
+    }
+  }
+  int count() const { return static_cast<int>(blocks.size()); }
+};
+
+TEST(LaneNumbers, FindTheLargestErrorOfEveryLane) {
+  for (const Target target : SupportedTargets()) {
+    for (const float unused : {0.0f, 7.0f, kNaN, kInfinity}) {
+      Errors errors(9, unused);
+      errors.blocks[2].lanes = kLanes;
+      errors.errors[2].max.lane[3] = kNaN;  // passed over
+      errors.errors[2].energy.lane[15] = kInfinity;
+      BlockError expected = {}, largest = {};
+      expected.max.lane[0] = largest.max.lane[0] = 2;  // of blocks before
+      for (size_t b = 0; b < errors.blocks.size(); ++b) {
+        for (int l = 0; l < errors.blocks[b].lanes; ++l) {
+          const BlockError& error = errors.errors[b];
+          const auto raise = [l](const Line& from, Line* to) {
+            to->lane[l] = std::max(to->lane[l], from.lane[l]);
+          };
+          raise(error.max, &expected.max);
+          raise(error.max_angular, &expected.max_angular);
+          raise(error.energy, &expected.energy);
+        }
+      }
+      LaneKernelsFor(target).find_largest(errors.blocks.data(), errors.errors.data(),
+                                          errors.count(), &largest);
+      EXPECT_EQ(std::memcmp(&largest, &expected, sizeof(largest)), 0)
+          << TargetName(target) << ", " << unused << " in unused lanes";
+    }
+  }
+}
+
+// In whatever order lanes come, a sum of whole numbers is the same.
+TEST(LaneNumbers, AddEnergiesAsWholeNumbers) {
+  constexpr double kScale = 1 << 29;
+  for (const Target target : SupportedTargets()) {
+    const Errors errors(11, kNaN);
+    double sums[kLanes] = {}, expected = 0;
+    for (size_t b = 0; b < errors.blocks.size(); ++b) {
+      for (int l = 0; l < errors.blocks[b].lanes; ++l) {
+        expected += std::nearbyint(kScale * static_cast<double>(errors.errors[b].energy.lane[l]));
+      }
+    }
+    LaneKernelsFor(target).add_energies(errors.blocks.data(), errors.errors.data(), errors.count(),
+                                        kScale, sums);
+    double sum = 0;
+    for (int l = kLanes - 1; l >= 0; --l) sum += sums[l];
+    EXPECT_EQ(sum, expected) << TargetName(target);
+  }
+}
+
+TEST(LaneNumbers, RoundWhatIsNoNumberToItself) {
+  EXPECT_EQ(Rounded(0), 0);
+  EXPECT_EQ(Rounded(2.4), 2);
+  EXPECT_EQ(Rounded(1e300), 1e300);
+  EXPECT_TRUE(std::isinf(Rounded(static_cast<double>(kInfinity))));
+  EXPECT_TRUE(std::isnan(Rounded(static_cast<double>(kNaN))));
+}
+
+}  // namespace
+}  // namespace cairn::simd
