@@ -17,7 +17,8 @@ constexpr double kStepMemory = 0.2;
 /// The same for what comes after the iteration where it took longer than thought: what is not set
 /// aside for it is overrun.
 constexpr double kFinishMemory = 0.5;
-/// What a step that is tried to learn its price may take beyond the budget [ns], as far as known.
+/// What a step that is tried to learn its price may take beyond the budget [ns], as far as known;
+/// and no more than the budget once again.
 constexpr double kMostExploration = 1e5;
 /// Frames from one trial to the next, at first and at most.
 constexpr int kFirstPatience = 8, kLongestPatience = 256;
@@ -135,8 +136,9 @@ bool BudgetMeter::Explores(double step_units, double sweep_units) const {
   // the first one was slowed down by cold caches
   const double slowest = prices_->step_known ? std::min(prices_->step_ns, prices_->most_step_ns)
                                              : prices_->most_step_ns;
+  const double most = std::min(kMostExploration, Nanoseconds(budget_.time()));
   return kStepMargin * step_units * prices_->least_step_ns <= left &&
-         step_units * slowest - left <= kMostExploration;
+         step_units * slowest - left <= most;
 }
 
 bool BudgetMeter::Fits(double step_units, double sweep_units) {
