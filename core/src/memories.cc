@@ -30,7 +30,7 @@ IslandMemory* IslandMemories::Recall(std::uint64_t key, int first_body) {
   }
   Remembered& remembered = memories_[key];
   remembered.last_frame = frame_;
-  return &remembered.memory;
+  return remembered.memory.get();
 }
 
 void IslandMemories::EndFrame() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <unordered_map>
 
@@ -24,8 +25,9 @@ class IslandMemories {
   void EndFrame();
 
  private:
+  /// Small, as all of them are looked at in every frame.
   struct Remembered {
-    IslandMemory memory;
+    std::unique_ptr<IslandMemory> memory = std::make_unique<IslandMemory>();
     int last_frame = 0;
   };
 

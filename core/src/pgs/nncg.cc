@@ -54,10 +54,10 @@ class Nncg::Pass final : public StagedWork {
   }
 
   void MoveBodies(const Group& group) {
-    const int slot = group.first_slot;
+    const auto of_group = [&](auto& bodies) { return bodies.data() + group.first_slot; };
     kernels_.move_bodies(
-        &nncg_.WayOf(0), &nncg_.island_of_slot_[slot], group.slots,
-        {&now_.bodies[slot], &nncg_.last_.bodies[slot], &nncg_.direction_.bodies[slot]});
+        &nncg_.WayOf(0), of_group(nncg_.island_of_slot_), group.slots,
+        {of_group(now_.bodies), of_group(nncg_.last_.bodies), of_group(nncg_.direction_.bodies)});
   }
 
   std::span<const GroupSweeps> groups_;
