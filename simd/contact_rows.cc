@@ -9,27 +9,12 @@
 #include "simd/contact_rows-inl.h"
 
 #if HWY_ONCE
+#include "simd/dispatch-inl.h"
+
 namespace cairn::simd {
 
 ContactRowsKernel ContactRowsKernelFor(Target target) {
-  switch (target) {
-#if HWY_TARGETS & HWY_SSE4
-    case Target::kSse4:
-      return N_SSE4::contacts::PackContacts;
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case Target::kAvx2:
-      return N_AVX2::contacts::PackContacts;
-#endif
-#if HWY_TARGETS & HWY_AVX3
-    case Target::kAvx512:
-      return N_AVX3::contacts::PackContacts;
-#endif
-    default:
-      break;
-  }
-  // what every CPU runs that this program was compiled for: plain C++ unless flags say more
-  return HWY_STATIC_DISPATCH(contacts::PackContacts);
+  return CAIRN_DISPATCH(target, contacts::PackContacts);
 }
 
 }  // namespace cairn::simd

@@ -310,10 +310,8 @@ void AddToUpdate(const Front<T>& from, std::span<const RowRun> runs, const Front
 }
 
 template <class T>
-constexpr FrontKernels<T> MakeFrontKernels() {
-  return {Factor<T>,     FactorSquare<T>, FactorRows<T>, UpdateRows<T>,
-          AddToPanel<T>, AddToUpdate<T>,  Forward<T>,    Backward<T>};
-}
+constexpr FrontKernels<T> kKernels = {Factor<T>,     FactorSquare<T>, FactorRows<T>, UpdateRows<T>,
+                                      AddToPanel<T>, AddToUpdate<T>,  Forward<T>,    Backward<T>};
 
 }  // namespace fronts
 }  // namespace HWY_NAMESPACE

@@ -98,9 +98,7 @@ inline void AddEnergies(const PairBlock* blocks, const BlockError* errors, int c
   for (int l = 0; l < kLanes; ++l) sums[l] = all[l];
 }
 
-constexpr LaneKernels MakeLaneKernels() {
-  return {MoveLines, MoveBodies, FindLargest, AddEnergies};
-}
+constexpr LaneKernels kKernels = {MoveLines, MoveBodies, FindLargest, AddEnergies};
 
 }  // namespace numbers
 }  // namespace HWY_NAMESPACE

@@ -163,9 +163,7 @@ void WeightedGram(const PairBlock& block, const Line* lines, const LineOf<T>* we
 }
 
 template <class T>
-constexpr PairProducts<T> MakePairProducts() {
-  return {Multiply<T>, MultiplyTransposed<T>, WeightedGram<T>};
-}
+constexpr PairProducts<T> kProducts = {Multiply<T>, MultiplyTransposed<T>, WeightedGram<T>};
 
 }  // namespace products
 }  // namespace HWY_NAMESPACE

@@ -267,9 +267,8 @@ void Run(const PairWork& work) {
   }
 }
 
-inline PairKernels MakePairKernels() {
-  return {Run<Pass::kStart>, Run<Pass::kSweep>, Run<Pass::kMeasuredSweep>, Run<Pass::kMeasure>};
-}
+constexpr PairKernels kPairKernels = {Run<Pass::kStart>, Run<Pass::kSweep>,
+                                      Run<Pass::kMeasuredSweep>, Run<Pass::kMeasure>};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace cairn::simd

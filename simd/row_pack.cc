@@ -9,28 +9,11 @@
 #include "simd/row_pack-inl.h"
 
 #if HWY_ONCE
+#include "simd/dispatch-inl.h"
+
 namespace cairn::simd {
 
-RowPackKernel RowPackKernelFor(Target target) {
-  switch (target) {
-#if HWY_TARGETS & HWY_SSE4
-    case Target::kSse4:
-      return N_SSE4::rows::PackRow;
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case Target::kAvx2:
-      return N_AVX2::rows::PackRow;
-#endif
-#if HWY_TARGETS & HWY_AVX3
-    case Target::kAvx512:
-      return N_AVX3::rows::PackRow;
-#endif
-    default:
-      break;
-  }
-  // what every CPU runs that this program was compiled for: plain C++ unless flags say more
-  return HWY_STATIC_DISPATCH(rows::PackRow);
-}
+RowPackKernel RowPackKernelFor(Target target) { return CAIRN_DISPATCH(target, rows::PackRow); }
 
 }  // namespace cairn::simd
 #endif

@@ -43,6 +43,8 @@ HWY_AFTER_NAMESPACE();
 #endif
 
 #if HWY_ONCE
+#include "simd/dispatch-inl.h"
+
 namespace cairn::simd {
 namespace {
 
@@ -59,25 +61,7 @@ float ReadLines(const Line* lines, std::size_t count) {
 }  // namespace
 
 float StreamRead(Target target, const Line* lines, std::size_t count) {
-  switch (target) {
-    case Target::kScalar:
-      break;
-#if HWY_TARGETS & HWY_SSE4
-    case Target::kSse4:
-      return N_SSE4::ReadLines(lines, count);
-#endif
-#if HWY_TARGETS & HWY_AVX2
-    case Target::kAvx2:
-      return N_AVX2::ReadLines(lines, count);
-#endif
-#if HWY_TARGETS & HWY_AVX3
-    case Target::kAvx512:
-      return N_AVX3::ReadLines(lines, count);
-#endif
-    default:
-      break;
-  }
-  return ReadLines(lines, count);
+  return CAIRN_DISPATCH_OR(target, ReadLines, cairn::simd::ReadLines)(lines, count);
 }
 
 }  // namespace cairn::simd

@@ -46,7 +46,7 @@ struct State {
   }
   bool SameBits(const State& other) const {
     const auto same = [](const std::vector<Numbers>& a, const std::vector<Numbers>& b) {
-      return std::memcmp(a.data(), b.data(), a.size() * sizeof(Numbers)) == 0;
+      return a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Numbers)) == 0;
     };
     return same(now, other.now) && same(last, other.last) && same(direction, other.direction);
   }
