@@ -70,6 +70,13 @@ RowOutcome Solve(RowSolver* solver, const RowProblem& problem, int iterations) {
   return solver->Result();
 }
 
+/// For names of files, as tests run side by side.
+std::string NameOfTest() {
+  std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+}
+
 /// A frame of a scene: as Bullet holds it, and recorded.
 class Frame {
  public:
@@ -78,10 +85,8 @@ class Frame {
     world_.Step(number);
     capturing_.CaptureNext(&substep_);
     world_.Step(1);
-    // tests run side by side
     path_ = testing::TempDir() + "/frame" + std::to_string(8 * sizeof(btScalar)) + "_" +
-            testing::UnitTest::GetInstance()->current_test_info()->name() + "_" +
-            std::string(scene) + std::to_string(number) + ".cairn";
+            NameOfTest() + "_" + std::string(scene) + std::to_string(number) + ".cairn";
     bullet::Options options{.mode = mode};
     options.warm_start_friction = options.warm_start_joints = false;
     bullet::ConstraintSolver recording({}, options);
