@@ -7,6 +7,7 @@
 // factorisation alone, each once in turn; Eigen's by triplets, and into a pattern that is known.
 //
 //     cairn_cholesky --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
