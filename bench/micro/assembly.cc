@@ -31,7 +31,8 @@ BlockAssembly<T>::BlockAssembly(const BodyMatrix& matrix) {
   systems_.reserve(plan.groups().size());
   for (int g = 0; g < static_cast<int>(plan.groups().size()); ++g) {
     systems_.emplace_back(frame_.target());
-    systems_.back().Prepare(plan, frame_.plan_number(), g);
+    const bool known = systems_.back().Recognise(plan, frame_.plan_number(), g);
+    if (!known) systems_.back().Analyse(plan);
     weights_.emplace_back(static_cast<size_t>(plan.groups()[g].x_lines), ones);
   }
 }

@@ -42,7 +42,7 @@ struct Blocks {
     BlockSystem<T> system(frame.target());
     BlockStep<T> step(frame.target());
     for (int group = 0; group < static_cast<int>(frame.plan().groups().size()); ++group) {
-      system.Prepare(frame.plan(), 1, group);
+      if (!system.Recognise(frame.plan(), 1, group)) system.Analyse(frame.plan());
       step.Take(frame.plan(), group, settings, &system, &crew, &frame.blocks(), islands);
     }
     frame.End(scene.problem(), &crew, {.rows = x}, v);

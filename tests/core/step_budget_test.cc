@@ -44,6 +44,20 @@ TEST(StepBudget, IsLeftToSweepsWhereTheyAreFast) {
   }
 }
 
+// The first frame of a graph pays for its analysis; the same frame again does not.
+TEST(StepBudget, IsChargedForTheAnalysisOfAGraph) {
+  constexpr int kWidth = 8, kHeight = 6;
+  const Scene wall = test::Wall(kWidth, kHeight);
+  Settings settings = test::AlwaysSteps(30);
+  settings.order = SweepOrder::kColoured;
+  Solver solver(settings);
+  const Report first = test::Solve(&solver, wall).report;
+  const Report again = test::Solve(&solver, wall).report;
+  ASSERT_GT(first.factorisations, 0);
+  ASSERT_EQ(first.factorisations, again.factorisations);
+  EXPECT_GT(first.work, again.work + 100 * kWidth * kHeight);
+}
+
 // A hundredfold weight on a chain, and ten courses of bricks. Sweeps are measured in the second
 // frame at the latest.
 TEST(StepBudget, IsSpentOnStepsWhereSweepsAreSlow) {

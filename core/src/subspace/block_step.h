@@ -30,7 +30,7 @@ class BlockStep {
   /// @p islands: one for each of the plan. Of the settings, the proximal term of rows with bounds
   /// is not used. An island whose system could not be factorised stays as it is. Returns how many
   /// factorisations were made in all.
-  /// @pre system->Prepare() for this group
+  /// @pre system->IsPreparedFor() this group
   int Take(const Plan& plan, int group, const StepSettings& settings, BlockSystem<T>* system,
            Crew* crew, BlockData* blocks, std::span<IslandStep> islands);
 

@@ -34,10 +34,6 @@ class BlockSystem {
   /// Analyses the graph that was not recognised. Pairs of the one before stay in it if they are
   /// few.
   void Analyse(const Plan& plan);
-  /// Both.
-  void Prepare(const Plan& plan, int plan_number, int group) {
-    if (!Recognise(plan, plan_number, group)) Analyse(plan);
-  }
   /// Bodies and pairs of bodies of the group: what an analysis is to look at.
   double graph_size() const { return static_cast<double>(nodes() + lanes_); }
   /// How many steps an analysis is expected to serve, >= 1: a mean that forgets.
@@ -57,7 +53,7 @@ class BlockSystem {
 
   /// Assembles and factorises. @p weights: one line for each x line of the group; rows of weight 0
   /// are left out. False if rounding made H indefinite.
-  /// @pre the last Prepare() was for this group of this plan
+  /// @pre IsPreparedFor() this group of this plan
   [[nodiscard]] bool Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
                                std::span<const simd::LineOf<T>> weights, Crew* crew);
   /// Solves H v = rhs in place, six numbers a node.
