@@ -42,8 +42,7 @@ btVector3 GyroscopicSpin(const btRigidBody& rigid, const btContactSolverInfo& in
 void PrefetchBehind(std::span<btCollisionObject* const> objects, size_t i) {
   constexpr size_t kAhead = 4;
   if (i + kAhead >= objects.size()) return;
-  const auto* const begin = reinterpret_cast<const char*>(objects[i + kAhead]);
-  for (size_t at = 0; at < sizeof(btRigidBody); at += 64) __builtin_prefetch(begin + at);
+  Prefetch(objects[i + kAhead], sizeof(btRigidBody));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
+#include "cairn/prefetch.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -48,8 +49,7 @@ class BodyTable {
   btRigidBody& rigid(int number) const { return *rigids_[number]; }
   /// Before the velocity of a body is written.
   void PrefetchVelocity(int number) const {
-    __builtin_prefetch(&rigids_[number]->getLinearVelocity(), 1);
-    __builtin_prefetch(&rigids_[number]->getAngularVelocity() + 1, 1);
+    Prefetch(&rigids_[number]->getLinearVelocity(), 2 * sizeof(btVector3));
   }
   /// Whether impulses move it; not so for kWorld.
   bool reacts(int number) const { return number != kWorld && bodies_[number].inv_mass > 0; }

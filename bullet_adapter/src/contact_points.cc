@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "contact_points.h"
 
+#include <cstddef>
+
+#include "cairn/prefetch.h"
 #include "conversions.h"
 
 namespace cairn::bullet {
@@ -179,11 +182,11 @@ void ContactPoints::Write() const {
   const bool warm_starts = (info_.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const bool both = like_.tangents > 1;
   constexpr size_t kAhead = 12;
+  // from the normal to the directions of friction
+  constexpr size_t kLast = sizeof(btManifoldPoint) - offsetof(btManifoldPoint, m_normalWorldOnB);
   for (size_t i = 0; i < sources_.size(); ++i) {
     if (i + kAhead < sources_.size()) {
-      const btManifoldPoint& later = *sources_[i + kAhead];
-      __builtin_prefetch(&later.m_appliedImpulse, 1);
-      __builtin_prefetch(&later.m_lateralFrictionDir2, 1);
+      Prefetch(&sources_[i + kAhead]->m_normalWorldOnB, kLast);
     }
     btManifoldPoint& point = *sources_[i];
     const ContactImpulse& impulse = impulses_[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "fast_group.h"
 
+#include "cairn/prefetch.h"
 #include "write_back.h"
 
 namespace cairn::bullet {
@@ -9,28 +10,24 @@ namespace {
 
 void PrefetchObject(const btCollisionObject& object) {
   const auto* const begin = reinterpret_cast<const char*>(&object);
-  __builtin_prefetch(begin + 64);   // where it is
-  __builtin_prefetch(begin + 192);  // its friction, and its index in the world
+  Prefetch(begin + 64);   // where it is
+  Prefetch(begin + 192);  // its friction, and its index in the world
 }
 
 /// Manifolds lie all over the memory, and most of a large world are empty: how many points they
 /// have is asked for some ahead, their points and bodies a little ahead.
 void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) {
-  constexpr size_t kFar = 32, kNear = 4;
+  constexpr size_t kFar = 32, kNear = 8;
   if (i + kFar < manifolds.size()) {
     // the number of points is a little before it, maybe in another line
-    const int* const behind = &manifolds[i + kFar]->m_companionIdA;
-    __builtin_prefetch(behind - 4);
-    __builtin_prefetch(behind);
+    Prefetch(&manifolds[i + kFar]->m_companionIdA - 4, 5 * sizeof(int));
   }
   if (i + kNear >= manifolds.size()) return;
   const btPersistentManifold& near = *manifolds[i + kNear];
   if (near.getNumContacts() == 0) return;
   PrefetchObject(*near.getBody0());
   PrefetchObject(*near.getBody1());
-  const auto* const begin = reinterpret_cast<const char*>(&near.getContactPoint(0));
-  const size_t size = near.getNumContacts() * sizeof(btManifoldPoint);
-  for (size_t at = 0; at < size; at += 64) __builtin_prefetch(begin + at);
+  Prefetch(&near.getContactPoint(0), near.getNumContacts() * sizeof(btManifoldPoint));
 }
 
 }  // namespace

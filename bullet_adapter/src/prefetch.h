@@ -4,6 +4,7 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include "cairn/bullet/precision.h"
+#include "cairn/prefetch.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -12,10 +13,7 @@ inline namespace CAIRN_BULLET_PRECISION {
 inline constexpr int kHeadOfJoint = sizeof(btTypedConstraint), kMostOfJoint = 768;
 
 /// Asks for a joint before it is needed: joints lie all over the memory of the game.
-inline void PrefetchJoint(const btTypedConstraint& joint, int bytes) {
-  const auto* const begin = reinterpret_cast<const char*>(&joint);
-  for (int at = 0; at < bytes; at += 64) __builtin_prefetch(begin + at);
-}
+inline void PrefetchJoint(const btTypedConstraint& joint, int bytes) { Prefetch(&joint, bytes); }
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet

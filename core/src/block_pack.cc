@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "cairn/prefetch.h"
 #include "joint_pack.h"
 #include "manifold_pack.h"
 #include "row_law.h"
@@ -87,12 +88,6 @@ void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
   for (int k = 0; k < 9; ++k) lines->angular[k].lane[lane] = body.angular.data()[k];
 }
 
-void Prefetch(const Row& row) {
-  const char* const bytes = reinterpret_cast<const char*>(&row);
-  for (size_t at = 0; at < sizeof(Row); at += 64) __builtin_prefetch(bytes + at);
-  __builtin_prefetch(bytes + sizeof(Row) - 1);  // may be on a line of its own
-}
-
 std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 /// The law that most rows have, compared by its bits: checking every field of every row for itself
@@ -170,7 +165,7 @@ class OneBlock {
     for (int lane = 0; lane < block_.lanes; ++lane) {
       const Pair& pair = *pairs_[lane];
       rows_[lane] = packer_.plan.rows_of(pair).data();
-      Prefetch(packer_.problem.rows[rows_[lane][0]]);
+      Prefetch(&packer_.problem.rows[rows_[lane][0]], sizeof(Row));
       Put(pair.a != kWorld ? packer_.bodies[pair.a] : kNoBody, lane, &a_);
       if (block_.form != PairForm::kSingle) Put(packer_.bodies[pair.b], lane, &b_);
     }
@@ -193,7 +188,7 @@ class OneBlock {
     bool as_planned = true;
     for (int lane = 0; lane < block_.lanes; ++lane) {
       const Row& row = packer_.problem.rows[rows_[lane][i]];
-      if (!last) Prefetch(packer_.problem.rows[rows_[lane][i + 1]]);
+      if (!last) Prefetch(&packer_.problem.rows[rows_[lane][i + 1]], sizeof(Row));
       const Pair& pair = *pairs_[lane];
       const int parent = shape.parent >= 0 ? rows_[lane][shape.parent] : kNoRow;
       as_planned = as_planned && (usual.Fits(row, pair, parent) || Fits(row, pair, parent, shape));

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "cairn/prefetch.h"
+
 namespace cairn {
 namespace {
 
@@ -28,8 +30,7 @@ void PrefetchRows(const BlockPacker& packer, int block) {
   if (packer.plan.pair(block, 0).source != RowSource::kJoint) return;
   for (int lane = 0; lane < packer.plan.blocks()[block].lanes; ++lane) {
     const Joint& joint = JointOf(packer, block, lane);
-    const JointRow* const rows = &packer.problem.joint_rows[joint.first_row];
-    for (int i = 0; i < joint.rows; ++i) __builtin_prefetch(rows + i);
+    Prefetch(&packer.problem.joint_rows[joint.first_row], joint.rows * sizeof(JointRow));
   }
 }
 

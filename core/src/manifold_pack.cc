@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "cairn/prefetch.h"
+
 namespace cairn {
 namespace {
 
@@ -36,14 +38,8 @@ const Manifold& ManifoldOf(const BlockPacker& packer, int block, int lane) {
   return packer.problem.manifolds[packer.plan.pair(block, lane).index];
 }
 
-/// The impulses of a manifold, with those lines of the cache that only the last one reaches.
 void PrefetchImpulses(std::span<const ContactImpulse> impulses, const Manifold& manifold) {
-  const ContactImpulse* const first = &impulses[manifold.first_point];
-  const auto* const end = reinterpret_cast<const char*>(first + manifold.points) - 1;
-  for (auto* at = reinterpret_cast<const char*>(first); at < end; at += 64) {
-    __builtin_prefetch(at, 1);
-  }
-  __builtin_prefetch(end, 1);
+  Prefetch(&impulses[manifold.first_point], manifold.points * sizeof(ContactImpulse));
 }
 
 /// Calls function(manifold) for those of a block, if there is such a block.
@@ -83,8 +79,7 @@ simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
 PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& start,
                          BlockData* blocks) {
   ForManifolds(packer, index + 1, [&](const Manifold& next) {
-    const ContactPoint* const points = &packer.problem.points[next.first_point];
-    for (int p = 0; p < next.points; ++p) __builtin_prefetch(points + p);
+    Prefetch(&packer.problem.points[next.first_point], next.points * sizeof(ContactPoint));
     PrefetchImpulses(start.points, next);
   });
   const simd::PairBlock& block = packer.plan.blocks()[index];

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Plain text everywhere: ASCII, no tabs, no trailing blanks; licence line in sources; no loose ends."""
+"""Plain text everywhere: ASCII, no tabs, no trailing blanks; licence line in sources; no loose
+ends; nothing that compilers drop."""
 import os
 import re
 
@@ -8,6 +9,8 @@ import tree
 NEEDS_LICENCE = tree.CPP + (".py",)
 PICTURES = (".png",)
 LOOSE_END = re.compile(r"\b(TODO(?!\(#\d+\))|FIXME|XXX)\b")
+# Where it may be called, as the file says.
+PREFETCH = "__builtin_" + "prefetch", "core/include/cairn/prefetch.h"
 SELF = os.path.relpath(os.path.abspath(__file__), tree.ROOT).replace(os.sep, "/")
 
 
@@ -28,6 +31,8 @@ def check(path):
             errors.append(f"{path}:{number}: tab")
         if line != line.rstrip():
             errors.append(f"{path}:{number}: blank at the end")
+        if PREFETCH[0] in line and path != PREFETCH[1]:
+            errors.append(f"{path}:{number}: call cairn::Prefetch() of {PREFETCH[1]}")
         # A note of work to do names where it is tracked; documents and this script may speak of it.
         if not path.endswith(".md") and path != SELF and LOOSE_END.search(line):
             errors.append(f"{path}:{number}: write TODO(#number)")
