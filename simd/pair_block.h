@@ -100,6 +100,8 @@ struct PairBlock {
   std::uint32_t data;  ///< First line of the block in PairWork::data.
   std::uint32_t x;     ///< Its first line in PairWork::x, one for each row.
   PairForm form;
+  /// The next block has the same form and the same rows, and shares no body with this one.
+  bool like_next;
 };
 
 /// How far the rows of a lane were from their laws; see Residual.

@@ -223,45 +223,88 @@ HWY_INLINE void RelaxRow(const PairWork& work, const RowShape& row, const Line* 
   state->Push(line, change);
 }
 
+/// A block on its way through the rows.
 template <PairForm form, Pass pass>
-HWY_NOINLINE void RunBlock(const PairWork& work, const PairBlock& block, BlockError* error) {
-  const Line* line = work.data + block.data;
-  Line* const x = work.x + block.x;
-  PairState<form> state;
-  state.Gather(work, block, line);
-  line += PairLines(form);
+struct BlockState {
+  const Line* line;
+  Line* x;
+  PairState<form> pair;
   ErrorSums errors;
-  if (Measures(pass)) errors.Reset();
 
-  for (int i = 0; i < block.row_count; ++i) {
-    const RowShape& row = block.rows[i];
+  HWY_INLINE void Begin(const PairWork& work, const PairBlock& block) {
+    line = work.data + block.data;
+    x = work.x + block.x;
+    pair.Gather(work, block, line);
+    line += PairLines(form);
+    if (Measures(pass)) errors.Reset();
+  }
+  HWY_INLINE void DoRow(const PairWork& work, const RowShape& row, int i) {
     if constexpr (pass == Pass::kStart) {
-      state.Push(line, LoadLine(x[i]));
+      pair.Push(line, LoadLine(x[i]));
     } else if (pass == Pass::kMeasure || work.sweep < row.max_sweeps) {
-      RelaxRow<form, pass>(work, row, line, x, x + i, &state, &errors);
+      RelaxRow<form, pass>(work, row, line, x, x + i, &pair, &errors);
     }
     line += RowLines(form, row);
   }
+  HWY_INLINE void End(const PairWork& work, int at) const {
+    if (pass != Pass::kMeasure) pair.Scatter(work, work.blocks[at]);
+    if (Measures(pass)) errors.Store(work.errors + at);
+  }
+};
 
-  if (pass != Pass::kMeasure) state.Scatter(work, block);
-  if (Measures(pass)) errors.Store(error);
+template <PairForm form, Pass pass>
+HWY_NOINLINE void RunBlock(const PairWork& work, int at) {
+  const PairBlock& block = work.blocks[at];
+  BlockState<form, pass> state;
+  state.Begin(work, block);
+  for (int i = 0; i < block.row_count; ++i) state.DoRow(work, block.rows[i], i);
+  state.End(work, at);
+}
+
+/// Two blocks, row by row: while a row waits for the one before it, the other block has work.
+template <PairForm form, Pass pass>
+HWY_NOINLINE void RunTwoBlocks(const PairWork& work, int at) {
+  const PairBlock &block = work.blocks[at], &next = work.blocks[at + 1];
+  BlockState<form, pass> first, second;
+  first.Begin(work, block);
+  second.Begin(work, next);
+  for (int i = 0; i < block.row_count; ++i) {
+    first.DoRow(work, block.rows[i], i);
+    second.DoRow(work, block.rows[i], i);
+  }
+  first.End(work, at);
+  second.End(work, at + 1);
+}
+
+/// Registers that hold more than one block: a line is one of them.
+constexpr bool kTwoAtOnce = kWidth == kLanes;
+
+/// From block @p at on. Returns how many were done.
+template <PairForm form, Pass pass>
+int RunSome(const PairWork& work, int at) {
+  if constexpr (kTwoAtOnce) {
+    if (at + 1 < work.count && work.blocks[at].like_next) {
+      RunTwoBlocks<form, pass>(work, at);
+      return 2;
+    }
+  }
+  RunBlock<form, pass>(work, at);
+  return 1;
 }
 
 template <Pass pass>
 void Run(const PairWork& work) {
   const FlushDenormals flush;
-  for (int i = 0; i < work.count; ++i) {
-    const PairBlock& block = work.blocks[i];
-    BlockError* const error = Measures(pass) ? work.errors + i : nullptr;
-    switch (block.form) {
+  for (int i = 0; i < work.count;) {
+    switch (work.blocks[i].form) {
       case PairForm::kJoint:
-        RunBlock<PairForm::kJoint, pass>(work, block, error);
+        i += RunSome<PairForm::kJoint, pass>(work, i);
         break;
       case PairForm::kContact:
-        RunBlock<PairForm::kContact, pass>(work, block, error);
+        i += RunSome<PairForm::kContact, pass>(work, i);
         break;
       case PairForm::kSingle:
-        RunBlock<PairForm::kSingle, pass>(work, block, error);
+        i += RunSome<PairForm::kSingle, pass>(work, i);
         break;
     }
   }

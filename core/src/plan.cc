@@ -142,6 +142,17 @@ void Plan::GiveSlots(size_t bodies) {
   }
 }
 
+/// Blocks of a colour share no body. Those that follow each other in a group are swept by one
+/// thread, or at the same time.
+void Plan::FindAlike() {
+  for (size_t i = 0; i + 1 < blocks_.size(); ++i) {
+    const simd::PairBlock& next = blocks_[i + 1];
+    const int colour = colour_of_block_[i];
+    blocks_[i].like_next = colour != Colour::kOverflow && colour == colour_of_block_[i + 1] &&
+                           blocks_[i].form == next.form && blocks_[i].rows == next.rows;
+  }
+}
+
 simd::PairBlock& Plan::AddBlock(int pair) {
   const Pair& of = list_.pairs[pair];
   simd::PairBlock& block = blocks_.emplace_back();
@@ -230,6 +241,7 @@ void Plan::FillBlocks() {
     group.blocks = static_cast<int>(blocks_.size()) - group.first_block;
     group.x_lines = x_lines_ - group.first_x;
   }
+  FindAlike();
 }
 
 int Plan::RowsOf(int first_block, int end_block) const {

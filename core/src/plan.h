@@ -87,6 +87,7 @@ class Plan {
   void SortPairs();
   void FillBlocks();
   void FillOverflow(size_t begin, size_t end);
+  void FindAlike();
   simd::PairBlock* FindOpenBlock(int pair, size_t first_block);
   simd::PairBlock& AddBlock(int pair);
   void AddLane(int pair, simd::PairBlock* block);

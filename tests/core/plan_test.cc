@@ -151,7 +151,28 @@ void ExpectBlocksOfAGroupInOrder(const Planned& p) {
   }
 }
 
+/// Those that may be swept at once are of one group, have the same rows, and share no body.
+void ExpectBlocksThatAreAlikeApart(const Planned& p) {
+  for (const Group& group : p.plan.groups()) {
+    for (int b = group.first_block; b + 1 < group.first_block + group.blocks; ++b) {
+      const PairBlock &block = p.plan.blocks()[b], &next = p.plan.blocks()[b + 1];
+      if (!block.like_next) continue;
+      EXPECT_EQ(block.form, next.form);
+      EXPECT_EQ(block.row_count, next.row_count);
+      EXPECT_EQ(block.rows, next.rows);
+      std::set<int> slots{0};
+      for (const PairBlock* of : {&block, &next}) {
+        for (int lane = 0; lane < of->lanes; ++lane) {
+          EXPECT_TRUE(slots.insert(of->a[lane]).second);
+          EXPECT_TRUE(of->b[lane] == 0 || slots.insert(of->b[lane]).second);
+        }
+      }
+    }
+  }
+}
+
 void ExpectSound(const Planned& p) {
+  ExpectBlocksThatAreAlikeApart(p);
   ExpectEveryRowInOneLane(p);
   ExpectLanesApart(p);
   ExpectGroupsApart(p);

@@ -35,15 +35,21 @@ int DataLines(const BlockSpec& spec) {
 
 void ShuffleBodies(Random* random, PairScene* scene) {
   std::vector<std::int32_t> slots(scene->bodies.size() - 1);
+  bool like_last = false;
   for (PairBlock& block : scene->blocks) {
-    std::iota(slots.begin(), slots.end(), 1);
-    for (std::size_t i = slots.size() - 1; i > 0; --i) {
-      std::swap(slots[i], slots[random->Index(static_cast<int>(i) + 1)]);
+    // blocks that are alike share no body
+    const int first = like_last ? 2 * kLanes : 0;
+    if (!like_last) {
+      std::iota(slots.begin(), slots.end(), 1);
+      for (std::size_t i = slots.size() - 1; i > 0; --i) {
+        std::swap(slots[i], slots[random->Index(static_cast<int>(i) + 1)]);
+      }
     }
     for (int lane = 0; lane < block.lanes; ++lane) {
-      block.a[lane] = slots[2 * lane];
-      block.b[lane] = block.form == PairForm::kSingle ? 0 : slots[2 * lane + 1];
+      block.a[lane] = slots[first + 2 * lane];
+      block.b[lane] = block.form == PairForm::kSingle ? 0 : slots[first + 2 * lane + 1];
     }
+    like_last = block.like_next;
   }
 }
 
@@ -164,6 +170,7 @@ PairScene ZeroScene(const SceneSpec& spec) {
     block.data = data;
     block.x = x;
     block.form = from.form;
+    block.like_next = from.like_next;
     scene.blocks.push_back(block);
     scene.shapes.push_back(from.rows);
     data += DataLines(from);

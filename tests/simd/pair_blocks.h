@@ -15,13 +15,14 @@ namespace cairn::simd::test {
 struct BlockSpec {
   PairForm form = PairForm::kContact;
   std::vector<RowShape> rows;
-  int lanes = kLanes;  ///< in use
+  int lanes = kLanes;      ///< in use
+  bool like_next = false;  ///< @pre the next has the same form and rows, and is not like its next
 };
 
 /// What a scene is made of.
 struct SceneSpec {
   std::vector<BlockSpec> blocks;
-  int bodies = 40;    ///< that can move, at least 2 kLanes
+  int bodies = 40;    ///< that can move, at least 2 kLanes, 4 where two blocks are alike
   float unused = 0;   ///< in unused lanes, in lines of no block, and in bodies that no lane names
   unsigned seed = 1;  ///< RandomScene()
 };

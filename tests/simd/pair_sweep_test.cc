@@ -133,6 +133,25 @@ TEST_P(PairKernelsOf, JointsGiveTheBitsOfTheReferenceWithAnyNumberOfLanes) {
   ExpectBitsOfTheReference(kernels(), spec);
 }
 
+TEST_P(PairKernelsOf, BlocksThatAreAlikeGiveTheBitsOfTheReference) {
+  for (const PairForm form : kForms) {
+    for (int lanes = 1; lanes <= kLanes; lanes += 5) {
+      SceneSpec spec;
+      spec.bodies = 4 * kLanes;
+      Random random(static_cast<unsigned>(lanes));
+      for (int kind = 0; kind < 8; ++kind) {
+        const bool alone = form != PairForm::kJoint && kind % 2 == 0;
+        const BlockSpec block{
+            form, alone ? Manifold({.relaxed = kind > 4}) : RandomRows(6, &random), lanes, true};
+        spec.blocks.push_back(block);
+        spec.blocks.push_back({form, block.rows, kLanes + 1 - lanes});
+      }
+      SCOPED_TRACE(lanes);
+      ExpectBitsOfTheReference(kernels(), spec);
+    }
+  }
+}
+
 TEST_P(PairKernelsOf, RandomScenesGiveTheBitsOfTheReference) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
