@@ -5,9 +5,11 @@ add_library(cairn_source_root INTERFACE)
 target_include_directories(cairn_source_root INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
 # Warnings, no fused multiply-add behind our back (results must not depend on the target), sanitizers.
+# Nobody replaces single functions of ours: else code for shared libraries could not inline them.
 function(cairn_strict target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
+                                           -fno-semantic-interposition
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
   if(CAIRN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${CAIRN_SANITIZE} -fno-sanitize-recover=all
