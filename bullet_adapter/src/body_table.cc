@@ -10,8 +10,6 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
 
-constexpr int kNotNumbered = -2;
-
 /// What forces add to the velocity over a step.
 Motion MotionOf(const btRigidBody& rigid, btScalar time_step) {
   Motion motion{rigid.getLinearVelocity(), rigid.getAngularVelocity(), {0, 0, 0}, {0, 0, 0}};
@@ -75,38 +73,41 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects,
     const btCollisionObject* const object = objects[i];
     PrefetchBehind(objects, i);
     const int before = size();
-    const int number = Number(*object);
-    if (number < before || !reacts(number)) continue;
-    motions_[number].external_spin += GyroscopicSpin(*rigids_[number], info);
+    const Party party = PartyOf(*object);
+    if (party.number < before || !party.reacts) continue;
+    motions_[party.number].external_spin += GyroscopicSpin(*rigids_[party.number], info);
   }
 }
 
-int* BodyTable::Find(const btCollisionObject& object) {
+Party BodyTable::Enter(const btCollisionObject& object) {
   const int index = object.getWorldArrayIndex();
-  if (index >= 0) {
-    if (index >= static_cast<int>(slots_.size())) slots_.resize(index + 1);
-    Slot& slot = slots_[index];
-    if (slot.substep != substep_) slot = {&object, substep_, kNotNumbered};
-    if (slot.object == &object) return &slot.number;
+  if (index >= static_cast<int>(slots_.size())) slots_.resize(index + 1);
+  if (index >= 0 && slots_[index].substep != substep_) {
+    slots_[index] = {&object, substep_, MakeParty(object)};
+    return slots_[index].party;
   }
-  return &strangers_.try_emplace(&object, kNotNumbered).first->second;
+  const auto known = strangers_.find(&object);
+  if (known != strangers_.end()) return known->second;
+  return strangers_.emplace(&object, MakeParty(object)).first->second;
 }
 
-int BodyTable::Number(const btCollisionObject& object) {
-  int& number = *Find(object);
-  if (number != kNotNumbered) return number;
+Party BodyTable::MakeParty(const btCollisionObject& object) {
+  using Object = btCollisionObject;
+  const btVector3& at = object.getWorldTransform().getOrigin();
+  Party party{
+      .at = {at.x(), at.y(), at.z()},
+      .slides_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_FRICTION),
+      .rolls_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_ROLLING_FRICTION)};
   // the solver of a world may write to its bodies, though manifolds hold them as const
   btRigidBody* const rigid = btRigidBody::upcast(const_cast<btCollisionObject*>(&object));
-  const bool moves = rigid != nullptr && (Reacts(*rigid) || rigid->isKinematicObject());
-  number = moves ? Add(rigid) : kWorld;
-  return number;
-}
-
-int BodyTable::Add(btRigidBody* rigid) {
+  if (rigid == nullptr) return party;
+  party.reacts = Reacts(*rigid);
+  if (!party.reacts && !rigid->isKinematicObject()) return party;
+  party.number = size();
   bodies_.push_back(ToBody(*rigid));
   motions_.push_back(MotionOf(*rigid, time_step_));
   rigids_.push_back(rigid);
-  return size() - 1;
+  return party;
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

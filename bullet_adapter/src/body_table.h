@@ -29,6 +29,16 @@ struct Motion {
   btVector3 external_velocity, external_spin;
 };
 
+/// One of the two objects that a contact or a joint is between.
+struct Party {
+  btScalar at[3] = {0, 0, 0};                            ///< Where it is [m].
+  int number = kWorld;                                   ///< In the BodyTable.
+  bool reacts = false;                                   ///< Impulses move it.
+  bool slides_unevenly = false, rolls_unevenly = false;  ///< Its friction is anisotropic.
+
+  btVector3 origin() const { return {at[0], at[1], at[2]}; }
+};
+
 /// The bodies of a substep by number. A number belongs to each body that reacts, and to each
 /// kinematic one for its velocity; everything else is kWorld. Bullet's companion ids are left
 /// alone, and nothing is written to bodies that do not react: islands on other threads may share
@@ -39,9 +49,16 @@ class BodyTable {
   /// passed over.
   void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
 
-  /// The number of an object. One that was not listed (kinematic, asleep, in no world) gets one
-  /// when it is first asked for.
-  int Number(const btCollisionObject& object);
+  /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
+  /// first asked for.
+  Party PartyOf(const btCollisionObject& object) {
+    const int index = object.getWorldArrayIndex();
+    if (index >= 0 && index < static_cast<int>(slots_.size())) {
+      const Slot& slot = slots_[index];
+      if (slot.substep == substep_ && slot.object == &object) return slot.party;
+    }
+    return Enter(object);
+  }
 
   int size() const { return static_cast<int>(bodies_.size()); }
   std::span<const Body> bodies() const { return bodies_; }
@@ -55,21 +72,22 @@ class BodyTable {
   bool reacts(int number) const { return number != kWorld && bodies_[number].inv_mass > 0; }
 
  private:
-  /// Where the number of an object is found, by its index in its world.
+  /// Where an object is found, by its index in its world. Half a cache line with floats.
   struct Slot {
     const btCollisionObject* object = nullptr;
     unsigned substep = 0;
-    int number = kWorld;
+    Party party;
   };
 
-  int* Find(const btCollisionObject& object);
-  int Add(btRigidBody* rigid);
+  /// One that has no slot yet, or none of its own.
+  Party Enter(const btCollisionObject& object);
+  Party MakeParty(const btCollisionObject& object);
 
   unsigned substep_ = 0;
   btScalar time_step_ = 0;
   std::vector<Slot> slots_;
   /// Objects in no world, or with the index of another one from another world.
-  std::unordered_map<const btCollisionObject*, int> strangers_;
+  std::unordered_map<const btCollisionObject*, Party> strangers_;
 
   std::vector<Body> bodies_;
   std::vector<Motion> motions_;

@@ -138,9 +138,11 @@ void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& inf
                   const ContactStart& start, BodyTable* bodies, ManifoldInput* result) {
   result->points = 0;
   if (manifold->getNumContacts() == 0) return;
-  result->body_a = bodies->Number(*manifold->getBody0());
-  result->body_b = bodies->Number(*manifold->getBody1());
-  if (!bodies->reacts(result->body_a) && !bodies->reacts(result->body_b)) return;
+  const Party a = bodies->PartyOf(*manifold->getBody0());
+  const Party b = bodies->PartyOf(*manifold->getBody1());
+  if (!a.reacts && !b.reacts) return;
+  result->body_a = a.number;
+  result->body_b = b.number;
   result->tangents = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;
 
   const Sides sides = ReadSides(*manifold, *result, *bodies);

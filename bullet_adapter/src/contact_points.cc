@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contact_points.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "cairn/prefetch.h"
@@ -16,23 +17,21 @@ void Put(const btVector3& from, float* to) {
   to[2] = static_cast<float>(from.z());
 }
 
-bool EitherIsAnisotropic(const btPersistentManifold& manifold, int mode) {
-  return manifold.getBody0()->hasAnisotropicFriction(mode) ||
-         manifold.getBody1()->hasAnisotropicFriction(mode);
-}
+/// Flags with which a point has its own softness.
+constexpr int kOwnSoftness = BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_HAS_CONTACT_ERP |
+                             BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
 
 }  // namespace
 
 void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
                           const ContactStart& start) {
   manifolds_.clear();
-  points_.clear();
-  impulses_.clear();
+  count_ = 0;
   twists_.clear();
   twist_impulses_.clear();
-  sources_.clear();
   info_ = info;
   start_ = start;
+  softness_ = {.erp = info.m_erp2, .compliance = info.m_globalCfm / info.m_timeStep};
   law_ = {.bounce_speed = static_cast<float>(info.m_restitutionVelocityThreshold),
           .spin_before_torques = true};
   like_ = {.body_a = kWorld, .body_b = kWorld};
@@ -41,122 +40,127 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   const bool by_velocity =
       (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) == 0;
   takes_any_ = by_velocity && info.m_sor == 1;
+  const bool by_user = (info.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0;
+  not_taken_ = BT_CONTACT_FLAG_FRICTION_ANCHOR |
+               (by_user ? BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED : 0);
 }
 
 void ContactPoints::End() {
   if (twists_.empty()) return;
-  twists_.resize(points_.size());
-  twist_impulses_.resize(points_.size());
+  twists_.resize(count_);
+  twist_impulses_.resize(count_);
 }
 
-ContactPoints::Kind ContactPoints::KindOf(const btPersistentManifold& manifold) const {
-  using Object = btCollisionObject;
-  if (!takes_any_ || EitherIsAnisotropic(manifold, Object::CF_ANISOTROPIC_FRICTION)) {
-    return Kind::kNotTaken;
-  }
-  bool rolls = false;
-  for (int i = 0; i < manifold.getNumContacts(); ++i) {
-    const btManifoldPoint& point = manifold.getContactPoint(i);
-    if (!IsPlain(point)) return Kind::kNotTaken;
-    rolls = rolls || point.m_combinedRollingFriction > 0;
-  }
-  if (!rolls) return Kind::kPlain;
-  return EitherIsAnisotropic(manifold, Object::CF_ANISOTROPIC_ROLLING_FRICTION) ? Kind::kNotTaken
-                                                                                : Kind::kRolling;
-}
-
-bool ContactPoints::IsPlain(const btManifoldPoint& point) const {
-  const bool by_user =
-      (info_.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0 &&
-      (point.m_contactPointFlags & BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED) != 0;
-  const bool anchored = (point.m_contactPointFlags & BT_CONTACT_FLAG_FRICTION_ANCHOR) != 0;
-  return !by_user && !anchored;
+void ContactPoints::MakeRoom(size_t more) {
+  if (count_ + more <= points_.size()) return;
+  const size_t size = std::max(2 * points_.size(), count_ + more);
+  points_.resize(size);
+  impulses_.resize(size);
+  sources_.resize(size);
 }
 
 bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
                            SplitImpulse* pushes) {
-  const int count = manifold->getNumContacts();
-  if (count == 0) return true;
-  const Kind kind = KindOf(*manifold);
-  if (kind == Kind::kNotTaken) return false;
+  if (manifold->getNumContacts() == 0) return true;
+  const Ends ends{bodies->PartyOf(*manifold->getBody0()), bodies->PartyOf(*manifold->getBody1())};
+  if (!takes_any_ || ends.a.slides_unevenly || ends.b.slides_unevenly) return false;
+  if (!ends.a.reacts && !ends.b.reacts) return true;
+  const Features found = ReadPoints(ends, manifold);
+  if ((found.flags & not_taken_) != 0) return false;
+  if (found.rolls && (ends.a.rolls_unevenly || ends.b.rolls_unevenly)) return false;
+  if (found.points == 0) return true;
 
-  Manifold next = like_;
-  next.twists = kind == Kind::kRolling;
-  next.body_a = bodies->Number(*manifold->getBody0());
-  next.body_b = bodies->Number(*manifold->getBody1());
-  if (!bodies->reacts(next.body_a) && !bodies->reacts(next.body_b)) return true;
-  next.first_point = static_cast<int>(points_.size());
-  const Ends ends{next.body_a, next.body_b, manifold->getBody0()->getWorldTransform().getOrigin(),
-                  manifold->getBody1()->getWorldTransform().getOrigin()};
-  const btScalar threshold = manifold->getContactProcessingThreshold();
-  for (int i = 0; i < count; ++i) {
-    btManifoldPoint& point = manifold->getContactPoint(i);
-    if (!(point.getDistance() <= threshold)) continue;
-    AppendPoint(ends, &point);
-    if (next.twists) AddTwist(point);
-    if (IsPushed(point)) AddPush(ends, point, *bodies, pushes);
+  Manifold& next = manifolds_.emplace_back(like_);
+  next.body_a = ends.a.number;
+  next.body_b = ends.b.number;
+  next.first_point = static_cast<int>(count_);
+  next.points = static_cast<std::int8_t>(found.points);
+  next.soft = found.soft;
+  next.twists = found.rolls;
+  const size_t end = count_ + found.points;
+  for (; count_ < end; ++count_) {
+    if (found.pushed) AddPush(ends, *sources_[count_], *bodies, pushes);
+    if (found.rolls) AddTwist(*sources_[count_]);
   }
-  next.points = static_cast<std::int8_t>(static_cast<int>(points_.size()) - next.first_point);
-  for (int p = next.first_point; p < static_cast<int>(points_.size()); ++p) {
-    next.soft = next.soft || points_[p].compliance != 0;
-  }
-  if (next.points > 0) manifolds_.push_back(next);
   return true;
 }
 
+ContactPoints::Features ContactPoints::ReadPoints(const Ends& ends,
+                                                  btPersistentManifold* manifold) {
+  const int count = manifold->getNumContacts();
+  const btScalar threshold = manifold->getContactProcessingThreshold();
+  MakeRoom(count);
+  Features found;
+  for (int i = 0; i < count; ++i) {
+    btManifoldPoint& point = manifold->getContactPoint(i);
+    if (!(point.getDistance() <= threshold)) continue;
+    ReadPoint(ends, point, count_ + found.points, &found);
+    sources_[count_ + found.points] = &point;
+    ++found.points;
+  }
+  return found;
+}
+
 /// Deep penetration is taken away beside the velocities.
-bool ContactPoints::IsPushed(const btManifoldPoint& point) const {
-  const btScalar distance = point.getDistance() + info_.m_linearSlop;
+bool ContactPoints::IsPushed(btScalar distance) const {
   return info_.m_splitImpulse != 0 &&
          distance <= btMin(btScalar(0), info_.m_splitImpulsePenetrationThreshold);
 }
 
 void ContactPoints::AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
                             SplitImpulse* pushes) {
-  const Softness softness = SoftnessOf(point, info_);
   const btScalar distance = point.getDistance() + info_.m_linearSlop;
+  if (!IsPushed(distance)) return;
+  const Softness softness = SoftnessOf(point, info_);
   const btScalar out = -distance * softness.erp / info_.m_timeStep;
   if (out == 0) return;
   const btVector3 zero(0, 0, 0), &normal = point.m_normalWorldOnB;
   Axes axes{zero, zero, zero, zero};
-  if (ends.body_a != kWorld) {
+  if (ends.a.number != kWorld) {
     axes.linear_a = normal;
-    axes.angular_a = (point.getPositionWorldOnA() - ends.origin_a).cross(normal);
+    axes.angular_a = (point.getPositionWorldOnA() - ends.a.origin()).cross(normal);
   }
-  if (ends.body_b != kWorld) {
+  if (ends.b.number != kWorld) {
     axes.linear_b = -normal;
-    axes.angular_b = (point.getPositionWorldOnB() - ends.origin_b).cross(-normal);
+    axes.angular_b = (point.getPositionWorldOnB() - ends.b.origin()).cross(-normal);
   }
-  pushes->Add({ends.body_a, ends.body_b, axes, out, softness.compliance}, info_.m_sor, bodies);
+  pushes->Add({ends.a.number, ends.b.number, axes, out, softness.compliance}, info_.m_sor, bodies);
 }
 
-void ContactPoints::AppendPoint(const Ends& ends, btManifoldPoint* source) {
-  const Softness softness = SoftnessOf(*source, info_);
-  const btScalar distance = source->getDistance() + info_.m_linearSlop;
-  const btScalar share = distance > 0 ? btScalar(1) : IsPushed(*source) ? 0 : softness.erp;
-  ContactPoint& point = points_.emplace_back();
-  Put(source->getPositionWorldOnA() - ends.origin_a, point.arm_a);
-  Put(source->getPositionWorldOnB() - ends.origin_b, point.arm_b);
-  Put(source->m_normalWorldOnB, point.normal);
+void ContactPoints::ReadPoint(const Ends& ends, const btManifoldPoint& source, size_t place,
+                              Features* found) {
+  const int flags = source.m_contactPointFlags;
+  const Softness softness = (flags & kOwnSoftness) != 0 ? SoftnessOf(source, info_) : softness_;
+  const btScalar distance = source.getDistance() + info_.m_linearSlop;
+  const bool pushed = IsPushed(distance);
+  found->flags |= flags;
+  found->pushed |= pushed;
+  found->rolls |= source.m_combinedRollingFriction > 0;
+  found->soft |= softness.compliance != 0;
+
+  ContactPoint& point = points_[place];
+  Put(source.getPositionWorldOnA() - ends.a.origin(), point.arm_a);
+  Put(source.getPositionWorldOnB() - ends.b.origin(), point.arm_b);
+  Put(source.m_normalWorldOnB, point.normal);
+  Put({0, 0, 0}, point.tangent);
+  const btScalar share = distance > 0 ? btScalar(1) : pushed ? btScalar(0) : softness.erp;
   point.bias = static_cast<float>(-distance * share / info_.m_timeStep);
   // Bullet never bounces bodies into each other
-  point.restitution = static_cast<float>(btMax(btScalar(0), source->m_combinedRestitution));
-  point.friction = static_cast<float>(btMax(btScalar(0), source->m_combinedFriction));
+  point.restitution = static_cast<float>(btMax(btScalar(0), source.m_combinedRestitution));
+  point.friction = static_cast<float>(btMax(btScalar(0), source.m_combinedFriction));
   point.compliance = static_cast<float>(softness.compliance);
 
-  impulses_.push_back(
-      {.normal = static_cast<float>(source->m_appliedImpulse * start_.normal),
-       .tangential = {static_cast<float>(source->m_appliedImpulseLateral1 * start_.friction),
-                      like_.tangents > 1
-                          ? static_cast<float>(source->m_appliedImpulseLateral2 * start_.friction)
-                          : 0.0f},
-       .heading = static_cast<float>(source->m_prevRHS)});
-  sources_.push_back(source);
+  ContactImpulse& impulse = impulses_[place];
+  const btScalar second = like_.tangents > 1 ? source.m_appliedImpulseLateral2 : btScalar(0);
+  impulse.normal = static_cast<float>(source.m_appliedImpulse * start_.normal);
+  impulse.tangential[0] = static_cast<float>(source.m_appliedImpulseLateral1 * start_.friction);
+  impulse.tangential[1] = static_cast<float>(second * start_.friction);
+  impulse.heading = static_cast<float>(source.m_prevRHS);
 }
 
 void ContactPoints::AddTwist(const btManifoldPoint& source) {
-  twists_.resize(points_.size());
-  twist_impulses_.resize(points_.size());
+  twists_.resize(count_ + 1);
+  twist_impulses_.resize(count_ + 1);
   // spinning friction counts only together with rolling friction, and the coefficient is also the
   // most that there is
   if (!(source.m_combinedRollingFriction > 0)) return;
@@ -184,8 +188,8 @@ void ContactPoints::Write() const {
   constexpr size_t kAhead = 12;
   // from the normal to the directions of friction
   constexpr size_t kLast = sizeof(btManifoldPoint) - offsetof(btManifoldPoint, m_normalWorldOnB);
-  for (size_t i = 0; i < sources_.size(); ++i) {
-    if (i + kAhead < sources_.size()) {
+  for (size_t i = 0; i < count_; ++i) {
+    if (i + kAhead < count_) {
       Prefetch(&sources_[i + kAhead]->m_normalWorldOnB, kLast);
     }
     btManifoldPoint& point = *sources_[i];

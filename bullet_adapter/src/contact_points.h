@@ -31,17 +31,15 @@ class ContactPoints {
   bool Append(btPersistentManifold* manifold, BodyTable* bodies, SplitImpulse* pushes);
 
   std::span<const Manifold> manifolds() const { return manifolds_; }
-  std::span<const ContactPoint> points() const { return points_; }
+  std::span<const ContactPoint> points() const { return std::span(points_).first(count_); }
   /// One per point: the start, and after solving the result.
-  std::span<ContactImpulse> impulses() { return impulses_; }
-  std::span<const ContactImpulse> impulses() const { return impulses_; }
+  std::span<ContactImpulse> impulses() { return std::span(impulses_).first(count_); }
   /// One per point, or none if nothing rolls.
   std::span<const ContactTwist> twists() const { return twists_; }
   std::span<TwistImpulse> twist_impulses() { return twist_impulses_; }
-  std::span<const TwistImpulse> twist_impulses() const { return twist_impulses_; }
   cairn::ContactLaw law() const { return law_; }
   /// Bullet's, one per point.
-  std::span<btManifoldPoint* const> sources() const { return sources_; }
+  std::span<btManifoldPoint* const> sources() const { return std::span(sources_).first(count_); }
 
   /// Writes impulses and directions to the points of Bullet.
   void Write() const;
@@ -49,32 +47,42 @@ class ContactPoints {
   void Keep(TwistMemory* memory) const;
 
  private:
-  /// Whether a manifold can be taken, and with what.
-  enum class Kind { kNotTaken, kPlain, kRolling };
-  Kind KindOf(const btPersistentManifold& manifold) const;
-  bool IsPlain(const btManifoldPoint& point) const;
   struct Ends {
-    int body_a, body_b;
-    const btVector3 &origin_a, &origin_b;
+    Party a, b;
   };
-  bool IsPushed(const btManifoldPoint& point) const;
-  void AppendPoint(const Ends& ends, btManifoldPoint* source);
-  /// What resists rolling at the last point.
+  /// What there is among the points of a manifold.
+  struct Features {
+    int points = 0;  ///< that count
+    int flags = 0;   ///< of any
+    bool pushed = false, rolls = false, soft = false;
+  };
+
+  void MakeRoom(size_t more);
+  /// Reads the points of a manifold behind those that there are.
+  Features ReadPoints(const Ends& ends, btPersistentManifold* manifold);
+  void ReadPoint(const Ends& ends, const btManifoldPoint& source, size_t place, Features* found);
+  bool IsPushed(btScalar distance) const;
+  /// What resists rolling at the point at count_.
   void AddTwist(const btManifoldPoint& source);
+  /// Takes a deep point apart.
   void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
                SplitImpulse* pushes);
 
   btContactSolverInfo info_;
   bool takes_any_ = false;  ///< the settings of the group allow it
+  int not_taken_ = 0;       ///< flags of points that have to be written out
+  Softness softness_;       ///< of points that have none of their own
   ContactStart start_;
   cairn::ContactLaw law_;
   Manifold like_;  ///< what all manifolds have in common
   std::vector<Manifold> manifolds_;
+  // of the points, the first count_ are in use
+  size_t count_ = 0;
   std::vector<ContactPoint> points_;
   std::vector<ContactImpulse> impulses_;
+  std::vector<btManifoldPoint*> sources_;
   std::vector<ContactTwist> twists_;  ///< as many as there are points up to the last that rolls
   std::vector<TwistImpulse> twist_impulses_;
-  std::vector<btManifoldPoint*> sources_;
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -22,9 +22,10 @@ struct LeftDirections {
 
 /// The directions of friction at a point.
 struct FrictionDirections {
-  btVector3 first, second{0, 0, 0};  ///< The second only where there are two.
-  btVector3 plane_x, plane_y;        ///< btPlaneSpace1 of the normal, unless they are the user's.
-  int count = 1;                     ///< 1 or 2
+  btVector3 first{0, 0, 0}, second{0, 0, 0};  ///< The second only where there are two.
+  /// btPlaneSpace1 of the normal, unless they are the user's.
+  btVector3 plane_x{0, 0, 0}, plane_y{0, 0, 0};
+  int count = 1;  ///< 1 or 2
   LeftDirections left;
   bool by_user = false;  ///< Set before the solver: with target speeds of their own.
   /// The same as in the substep before, so that impulses can be taken over as they are.

@@ -5,6 +5,7 @@
 #include <BulletDynamics/ConstraintSolver/btPoint2PointConstraint.h>
 
 #include <algorithm>
+#include <limits>
 #include <typeinfo>
 
 #include "conversions.h"
@@ -79,6 +80,15 @@ void Put(const btScalar* from, float* to) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
 
+constexpr float kNoBound = std::numeric_limits<float>::infinity();
+
+/// Bound() in floats.
+float FloatBound(btScalar value) {
+  constexpr auto kMost = static_cast<btScalar>(kUnbounded);
+  if (value >= kMost) return kNoBound;
+  return value <= -kMost ? -kNoBound : static_cast<float>(value);
+}
+
 }  // namespace
 
 bool AllOfKnownType(Joints joints) {
@@ -104,9 +114,9 @@ void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, Swe
                              ContactForm form) {
   most_sweeps_ = 0;
   constexpr size_t kAhead = 2;
-  for (btTypedConstraint* joint : joints) Prepare(joint);
   for (size_t place = 0; place < joints.size(); ++place) {
     if (place + kAhead < joints.size()) PrefetchJoint(*joints[place + kAhead], kMostOfJoint);
+    Prepare(joints[place]);
     if (!joints[place]->isEnabled()) continue;
     const JointRows appended = AppendJoint(joints[place], info, limits, form);
     if (appended.rows == 0) continue;
@@ -126,24 +136,26 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   const int sweeps = own > 0 ? own : info.m_numIterations;
   most_sweeps_ = std::max(most_sweeps_, sweeps);
   const btRigidBody &a = joint->getRigidBodyA(), &b = joint->getRigidBodyB();
-  Row law{.body_a = bodies_->Number(a), .body_b = bodies_->Number(b)};
-  if (!bodies_->reacts(law.body_a) && !bodies_->reacts(law.body_b)) return result;
-  if (limits == SweepLimits::kBullet) law.max_sweeps = sweeps;
+  const Party party_a = bodies_->PartyOf(a), party_b = bodies_->PartyOf(b);
+  if (!party_a.reacts && !party_b.reacts) return result;
+  const int max_sweeps = limits == SweepLimits::kBullet ? sweeps : std::numeric_limits<int>::max();
 
-  result.a_moves = law.body_a != kWorld;
-  result.b_moves = law.body_b != kWorld;
+  result.a_moves = party_a.number != kWorld;
+  result.b_moves = party_b.number != kWorld;
   result.rows = static_cast<int>(slots_.size());
   result.written_out = form == ContactForm::kRows || !IsCompact();
   const auto motion = [this](int number) {
     return number == kWorld ? nullptr : &bodies_->motion(number);
   };
-  const Ends ends{a, b, motion(law.body_a), motion(law.body_b), law};
+  const Ends ends{
+      a, b, motion(party_a.number), motion(party_b.number), party_a.number, party_b.number};
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
-    for (const Slot& slot : slots_) AppendRow(ends, slot, damping);
+    const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .max_sweeps = max_sweeps};
+    for (const Slot& slot : slots_) AppendRow(ends, law, slot, damping);
   } else {
     result.first_row = static_cast<int>(group_->joint_rows.size());
-    AppendCompact(ends, damping);
+    AppendCompact(ends, max_sweeps, damping);
   }
   return result;
 }
@@ -197,46 +209,42 @@ bool JointRowBuilder::IsCompact() const {
          std::ranges::all_of(slots_, [](const Slot& slot) { return slot.cfm == 0; });
 }
 
-void JointRowBuilder::AppendCompact(const Ends& ends, btScalar damping) {
+void JointRowBuilder::AppendCompact(const Ends& ends, int max_sweeps, btScalar damping) {
+  std::vector<JointRow>& rows = group_->joint_rows;
   Joint& joint = group_->compact_joints.emplace_back(
-      Joint{.body_a = ends.law.body_a,
-            .body_b = ends.law.body_b,
-            .first_row = static_cast<int>(group_->joint_rows.size()),
+      Joint{.body_a = ends.body_a,
+            .body_b = ends.body_b,
+            .first_row = static_cast<int>(rows.size()),
             .rows = static_cast<int>(slots_.size()),
             .damping = kTargetsInDouble ? 0 : static_cast<float>(damping),
-            .max_sweeps = ends.law.max_sweeps});
+            .opposite = true,
+            .max_sweeps = max_sweeps});
   const bool still =
       !kTargetsInDouble && StandsStill(ends.a, ends.motion_a) && StandsStill(ends.b, ends.motion_b);
   const btScalar inv_mass_a = ends.a.getInvMass(), inv_mass_b = ends.b.getInvMass();
-  group_->joint_rows.resize(group_->joint_rows.size() + slots_.size());
-  group_->joint_impulses.resize(group_->joint_rows.size());
-  JointRow* row = &group_->joint_rows[joint.first_row];
-  std::uint32_t bounded = 0, angular = 0;
-  bool opposite = true;
-  for (size_t i = 0; i < slots_.size(); ++i, ++row) {
+  rows.resize(rows.size() + slots_.size());
+  group_->joint_impulses.resize(rows.size());
+  for (size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
+    JointRow& row = rows[joint.first_row + i];
+    row.lo = FloatBound(slot.lower);
+    row.hi = FloatBound(slot.upper);
     const btVector3 linear_a = ToVector(slot.linear_a), linear_b = ToVector(slot.linear_b);
     const btScalar a2 = linear_a.length2(), b2 = linear_b.length2();
-    if (a2 + b2 == 0) angular |= 1u << i;
-    opposite = opposite && (linear_a + linear_b).isZero();
-    const double lo = Bound(slot.lower), hi = Bound(slot.upper);
-    if (lo > -kInfinity || hi < kInfinity) bounded |= 1u << i;
-    row->lo = static_cast<float>(lo);
-    row->hi = static_cast<float>(hi);
+    joint.opposite = joint.opposite && (linear_a + linear_b).isZero();
+    if (a2 + b2 == 0) joint.angular |= 1u << i;
+    if (row.lo > -kNoBound || row.hi < kNoBound) joint.bounded |= 1u << i;
     // one that pushes nothing asks for nothing
     const bool pushes = a2 * inv_mass_a + b2 * inv_mass_b > SIMD_EPSILON;
     if (!pushes && !(Diagonal(ends, slot) > SIMD_EPSILON)) continue;
-    Put(slot.linear_a, row->linear_a);
-    Put(slot.angular_a, row->angular_a);
-    Put(slot.linear_b, row->linear_b);
-    Put(slot.angular_b, row->angular_b);
+    Put(slot.linear_a, row.linear_a);
+    Put(slot.angular_a, row.angular_a);
+    Put(slot.linear_b, row.linear_b);
+    Put(slot.angular_b, row.angular_b);
     double target = slot.error;
     if (!still) target -= static_cast<double>(UnseenSpeed(ends, slot) * damping);
-    row->target = static_cast<float>(std::clamp(target, -kMostTarget, kMostTarget));
+    row.target = static_cast<float>(std::clamp(target, -kMostTarget, kMostTarget));
   }
-  joint.bounded = bounded;
-  joint.angular = angular;
-  joint.opposite = opposite;
 }
 
 btScalar JointRowBuilder::Diagonal(const Ends& ends, const Slot& slot) {
@@ -255,10 +263,11 @@ btScalar JointRowBuilder::UnseenSpeed(const Ends& ends, const Slot& slot) {
   return speed;
 }
 
-void JointRowBuilder::AppendRow(const Ends& ends, const Slot& slot, btScalar damping) {
+void JointRowBuilder::AppendRow(const Ends& ends, const Row& law, const Slot& slot,
+                                btScalar damping) {
   const btVector3 linear_a = ToVector(slot.linear_a), angular_a = ToVector(slot.angular_a);
   const btVector3 linear_b = ToVector(slot.linear_b), angular_b = ToVector(slot.angular_b);
-  Row& row = group_->Append(ends.law, 0);
+  Row& row = group_->Append(law, 0);
   row.linear_a = ToEigen(linear_a);
   row.angular_a = ToEigen(angular_a);
   row.linear_b = ToEigen(linear_b);

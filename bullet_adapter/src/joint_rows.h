@@ -50,7 +50,7 @@ class JointRowBuilder {
   struct Ends {
     const btRigidBody &a, &b;
     const Motion *motion_a, *motion_b;
-    Row law;
+    int body_a, body_b;
   };
 
   /// Returns the rows that were appended, none where neither body reacts.
@@ -63,8 +63,8 @@ class JointRowBuilder {
   /// What the core does not see of J v: static bodies have no number there, and may have a
   /// velocity.
   static btScalar UnseenSpeed(const Ends& ends, const Slot& slot);
-  void AppendRow(const Ends& ends, const Slot& slot, btScalar damping);
-  void AppendCompact(const Ends& ends, btScalar damping);
+  void AppendRow(const Ends& ends, const Row& law, const Slot& slot, btScalar damping);
+  void AppendCompact(const Ends& ends, int max_sweeps, btScalar damping);
 
   BodyTable* bodies_;
   JointMemory* memory_;
