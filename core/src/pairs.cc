@@ -64,6 +64,28 @@ void ShapeTable::Clear() {
 
 namespace {
 
+/// Shapes of the joints or manifolds of a list that came last: few kinds take turns.
+template <class Source>
+class RecentShapes {
+ public:
+  /// That of a source; make() if it is not known.
+  template <class Make>
+  int Of(const Source& source, const Make& make) {
+    for (int i = 0; i < std::min(made_, kMost); ++i) {
+      if (HasLawOf(source, *sources_[i])) return shapes_[i];
+    }
+    const int place = made_++ % kMost;
+    sources_[place] = &source;
+    return shapes_[place] = make();
+  }
+
+ private:
+  static constexpr int kMost = 8;
+  const Source* sources_[kMost];
+  int shapes_[kMost];
+  int made_ = 0;
+};
+
 simd::PairForm FormOf(const MovableBodies& movable, const Pair& pair) {
   if (pair.b == kWorld) return simd::PairForm::kSingle;
   const bool even = movable[pair.a] == kMovedEvenly && movable[pair.b] == kMovedEvenly;
@@ -154,12 +176,10 @@ int PairFinder::ShapeOf(const Joint& joint, ShapeTable* shapes) {
 }
 
 void PairFinder::AddJoints(std::span<const Joint> joints, ShapeTable* shapes) {
-  const Joint* last = nullptr;
-  int shape = 0;
+  RecentShapes<Joint> recent;
   for (size_t i = 0; i < joints.size(); ++i) {
     const Joint& joint = joints[i];
-    if (last == nullptr || !HasLawOf(joint, *last)) shape = ShapeOf(joint, shapes);
-    last = &joint;
+    const int shape = recent.Of(joint, [&] { return ShapeOf(joint, shapes); });
     Add({.a = joint.body_a,
          .b = joint.body_b,
          .row_a = joint.body_a,
@@ -203,12 +223,10 @@ int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
 }
 
 void PairFinder::AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes) {
-  const Manifold* last = nullptr;
-  int shape = 0;
+  RecentShapes<Manifold> recent;
   for (size_t i = 0; i < manifolds.size(); ++i) {
     const Manifold& manifold = manifolds[i];
-    if (last == nullptr || !HasLawOf(manifold, *last)) shape = ShapeOf(manifold, shapes);
-    last = &manifold;
+    const int shape = recent.Of(manifold, [&] { return ShapeOf(manifold, shapes); });
     Add({.a = manifold.body_a,
          .b = manifold.body_b,
          .row_a = manifold.body_a,
