@@ -136,7 +136,7 @@ void Plan::GiveSlots(size_t bodies) {
     if (pair.a != kWorld) SlotOf(pair.a);
     if (pair.b != kWorld) SlotOf(pair.b);
     if (pair.a == kWorld) body_of_slot_.push_back(kWorld);
-    Group& group = groups_[islands_[island_of_pair_[i]].group];
+    Group& group = groups_[keys_[i].group];
     if (group.slots == 0) group.first_slot = before;
     group.slots += static_cast<int>(body_of_slot_.size()) - before;
   }
@@ -222,21 +222,19 @@ void Plan::FillBlocks() {
     group.first_x = x_lines_;
     unmoved_slot_ = group.first_slot;
     const auto of_group = [&](size_t at) {
-      return at < order_.size() && islands_[island_of_pair_[order_[at]]].group == g;
+      return at < order_.size() && keys_[order_[at]].group == g;
     };
     const size_t begin = i;
-    while (of_group(i) && colouring_.colours()[order_[i]] == Colour::kOverflow) ++i;
+    while (of_group(i) && keys_[order_[i]].colour == Colour::kOverflow) ++i;
     FillOverflow(begin, i);
 
     // a block ends with its colour, its shape, or full
+    PairKey key{};  // that of no pair with a colour
     for (; of_group(i); ++i) {
-      const Pair& pair = list_.pairs[order_[i]];
-      const bool same = static_cast<int>(blocks_.size()) > group.first_block &&
-                        blocks_.back().lanes < kLanes &&
-                        colour_of_block_.back() == colouring_.colours()[order_[i]] &&
-                        blocks_.back().form == pair.form &&
-                        blocks_.back().rows == shapes_.rows(pair.shape).data();
+      const PairKey& next = keys_[order_[i]];
+      const bool same = key == next && blocks_.back().lanes < kLanes;
       AddLane(order_[i], same ? &blocks_.back() : &AddBlock(order_[i]));
+      key = next;
     }
     group.blocks = static_cast<int>(blocks_.size()) - group.first_block;
     group.x_lines = x_lines_ - group.first_x;
