@@ -150,12 +150,12 @@ void ContactPoints::ReadPoint(const Ends& ends, const btManifoldPoint& source, s
   point.friction = static_cast<float>(btMax(btScalar(0), source.m_combinedFriction));
   point.compliance = static_cast<float>(softness.compliance);
 
-  ContactImpulse& impulse = impulses_[place];
   const btScalar second = like_.tangents > 1 ? source.m_appliedImpulseLateral2 : btScalar(0);
-  impulse.normal = static_cast<float>(source.m_appliedImpulse * start_.normal);
-  impulse.tangential[0] = static_cast<float>(source.m_appliedImpulseLateral1 * start_.friction);
-  impulse.tangential[1] = static_cast<float>(second * start_.friction);
-  impulse.heading = static_cast<float>(source.m_prevRHS);
+  impulses_[place] = {
+      .normal = static_cast<float>(source.m_appliedImpulse * start_.normal),
+      .tangential = {static_cast<float>(source.m_appliedImpulseLateral1 * start_.friction),
+                     static_cast<float>(second * start_.friction)},
+      .heading = static_cast<float>(source.m_prevRHS)};
 }
 
 void ContactPoints::AddTwist(const btManifoldPoint& source) {

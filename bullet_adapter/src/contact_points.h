@@ -64,7 +64,7 @@ class ContactPoints {
   bool IsPushed(btScalar distance) const;
   /// What resists rolling at the point at count_.
   void AddTwist(const btManifoldPoint& source);
-  /// Takes a deep point apart.
+  /// Adds what takes a deep point apart to @p pushes.
   void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
                SplitImpulse* pushes);
 
