@@ -44,8 +44,9 @@ class FramesTest(cli_test.CairnTest):
 
     def test_curves_fall_from_the_same_start_for_every_solver(self):
         path = self.record("chain")
+        # twenty times what it takes: machines are busy at times
         result = self.solve_json(path, "--errors", "1e-1,1e-2,1e-4", "--solver",
-                                 ",".join(FRAME_SOLVERS), "--budget", "5ms")
+                                 ",".join(FRAME_SOLVERS), "--budget", "100ms")
         problem = result["problems"][0]
         self.assertEqual(problem["unit"], "m/s")
         self.assertEqual(problem["error_against"], "converged reference")
