@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "cairn/bullet/precision.h"
@@ -23,9 +21,13 @@ class AddressIndex {
   void Rewind() { next_ = 0; }
 
  private:
+  void FillTable();
+  std::size_t HashOf(const void* address) const;
+
   std::vector<const void*> addresses_;
   std::size_t next_ = 0;
-  std::vector<std::pair<std::uintptr_t, int>> sorted_;  ///< empty until it is needed
+  /// Open addressing: place + 1, or 0. Empty until it is needed.
+  std::vector<int> table_;
 };
 
 }  // namespace CAIRN_BULLET_PRECISION
