@@ -73,41 +73,44 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects,
     const btCollisionObject* const object = objects[i];
     PrefetchBehind(objects, i);
     const int before = size();
-    const Party party = PartyOf(*object);
+    const Party& party = PartyOf(*object);
     if (party.number < before || !party.reacts) continue;
     motions_[party.number].external_spin += GyroscopicSpin(*rigids_[party.number], info);
   }
 }
 
-Party BodyTable::Enter(const btCollisionObject& object) {
+const Party& BodyTable::Enter(const btCollisionObject& object) {
   const int index = object.getWorldArrayIndex();
   if (index >= static_cast<int>(slots_.size())) slots_.resize(index + 1);
   if (index >= 0 && slots_[index].substep != substep_) {
-    slots_[index] = {&object, substep_, MakeParty(object)};
-    return slots_[index].party;
+    Slot& slot = slots_[index];
+    slot.object = &object;
+    slot.substep = substep_;
+    Fill(object, &slot.party);
+    return slot.party;
   }
-  const auto known = strangers_.find(&object);
-  if (known != strangers_.end()) return known->second;
-  return strangers_.emplace(&object, MakeParty(object)).first->second;
+  const auto [entry, is_new] = strangers_.try_emplace(&object);
+  if (is_new) Fill(object, &entry->second);
+  return entry->second;
 }
 
-Party BodyTable::MakeParty(const btCollisionObject& object) {
+void BodyTable::Fill(const btCollisionObject& object, Party* party) {
   using Object = btCollisionObject;
   const btVector3& at = object.getWorldTransform().getOrigin();
-  Party party{
-      .at = {at.x(), at.y(), at.z()},
-      .slides_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_FRICTION),
-      .rolls_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_ROLLING_FRICTION)};
+  for (int k = 0; k < 3; ++k) party->at[k] = at[k];
+  party->number = kWorld;
+  party->reacts = false;
+  party->slides_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_FRICTION);
+  party->rolls_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_ROLLING_FRICTION);
   // the solver of a world may write to its bodies, though manifolds hold them as const
   btRigidBody* const rigid = btRigidBody::upcast(const_cast<btCollisionObject*>(&object));
-  if (rigid == nullptr) return party;
-  party.reacts = Reacts(*rigid);
-  if (!party.reacts && !rigid->isKinematicObject()) return party;
-  party.number = size();
+  if (rigid == nullptr) return;
+  party->reacts = Reacts(*rigid);
+  if (!party->reacts && !rigid->isKinematicObject()) return;
+  party->number = size();
   bodies_.push_back(ToBody(*rigid));
   motions_.push_back(MotionOf(*rigid, time_step_));
   rigids_.push_back(rigid);
-  return party;
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -50,8 +50,8 @@ class BodyTable {
   void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
-  /// first asked for.
-  Party PartyOf(const btCollisionObject& object) {
+  /// first asked for. The reference is good until another object is asked for.
+  const Party& PartyOf(const btCollisionObject& object) {
     const int index = object.getWorldArrayIndex();
     if (index >= 0 && index < static_cast<int>(slots_.size())) {
       const Slot& slot = slots_[index];
@@ -80,8 +80,9 @@ class BodyTable {
   };
 
   /// One that has no slot yet, or none of its own.
-  Party Enter(const btCollisionObject& object);
-  Party MakeParty(const btCollisionObject& object);
+  const Party& Enter(const btCollisionObject& object);
+  /// Fills it where it stays: a copy would wait for what was just written.
+  void Fill(const btCollisionObject& object, Party* party);
 
   unsigned substep_ = 0;
   btScalar time_step_ = 0;
