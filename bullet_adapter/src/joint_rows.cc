@@ -80,15 +80,6 @@ void Put(const btScalar* from, float* to) {
   for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
 }
 
-constexpr float kNoBound = std::numeric_limits<float>::infinity();
-
-/// Bound() in floats.
-float FloatBound(btScalar value) {
-  constexpr auto kMost = static_cast<btScalar>(kUnbounded);
-  if (value >= kMost) return kNoBound;
-  return value <= -kMost ? -kNoBound : static_cast<float>(value);
-}
-
 }  // namespace
 
 bool AllOfKnownType(Joints joints) {
@@ -227,13 +218,13 @@ void JointRowBuilder::AppendCompact(const Ends& ends, int max_sweeps, btScalar d
   for (size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     JointRow& row = rows[joint.first_row + i];
-    row.lo = FloatBound(slot.lower);
-    row.hi = FloatBound(slot.upper);
+    row.lo = static_cast<float>(Bound(slot.lower));
+    row.hi = static_cast<float>(Bound(slot.upper));
     const btVector3 linear_a = ToVector(slot.linear_a), linear_b = ToVector(slot.linear_b);
     const btScalar a2 = linear_a.length2(), b2 = linear_b.length2();
     joint.opposite = joint.opposite && (linear_a + linear_b).isZero();
     if (a2 + b2 == 0) joint.angular |= 1u << i;
-    if (row.lo > -kNoBound || row.hi < kNoBound) joint.bounded |= 1u << i;
+    if (row.lo > -kInfinity || row.hi < kInfinity) joint.bounded |= 1u << i;
     // one that pushes nothing asks for nothing
     const bool pushes = a2 * inv_mass_a + b2 * inv_mass_b > SIMD_EPSILON;
     if (!pushes && !(Diagonal(ends, slot) > SIMD_EPSILON)) continue;

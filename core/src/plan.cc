@@ -142,8 +142,8 @@ void Plan::GiveSlots(size_t bodies) {
   }
 }
 
-/// Blocks of a colour share no body. Those that follow each other in a group are swept by one
-/// thread, or at the same time.
+/// Marks blocks that are followed by one of the same colour, and so of other bodies, with the same
+/// rows.
 void Plan::FindAlike() {
   for (size_t i = 0; i + 1 < blocks_.size(); ++i) {
     const simd::PairBlock& next = blocks_[i + 1];

@@ -151,7 +151,7 @@ void ExpectBlocksOfAGroupInOrder(const Planned& p) {
   }
 }
 
-/// Those that may be swept at once are of one group, have the same rows, and share no body.
+/// Those that may be swept at once have the same rows and share no body.
 void ExpectBlocksThatAreAlikeApart(const Planned& p) {
   for (const Group& group : p.plan.groups()) {
     for (int b = group.first_block; b + 1 < group.first_block + group.blocks; ++b) {
@@ -186,6 +186,15 @@ TEST(Plan, IsSoundForScenesOfAllKinds) {
         test::Plate(100), test::HangingChain(50, 1), test::NormalsFirst(test::Wall(6, 6))}) {
     ExpectSound(Planned(scene));
   }
+}
+
+TEST(Plan, FindsBlocksThatAreAlike) {
+  const Planned wall(test::Wall(20, 15)), tower(test::Tower(30));
+  const auto alike = [](const Planned& p) {
+    return std::ranges::count_if(p.plan.blocks(), &PairBlock::like_next);
+  };
+  EXPECT_GT(alike(wall), 0);
+  EXPECT_EQ(alike(tower), 0);  // of each kind and colour it has one block at the most
 }
 
 TEST(Plan, IsSoundForRandomScenesThatChange) {
