@@ -9,8 +9,9 @@ namespace {
 
 using simd::kLanes;
 
-/// Small islands share a group until it has so many rows: its blocks, impulses and bodies then fit
-/// the first two levels of the cache, and its lanes are full. Larger islands are swept by colours.
+/// Small islands share groups of about so many rows: blocks, impulses and bodies of a group then
+/// fit the first two levels of the cache, and its lanes are full. Larger islands are swept by
+/// colours.
 constexpr int kGroupRows = 1536;
 /// A claim of a thread: a few microseconds of work.
 constexpr int kUnitRows = 1024;
@@ -22,6 +23,8 @@ constexpr int kTinyColour = 512;
 constexpr int kTinyColoursRows = 2048;
 /// Blocks that a pair without a colour may still join.
 constexpr int kOpenBlocks = 8;
+
+bool IsLarge(const PlannedIsland& island) { return island.rows > kGroupRows; }
 
 bool Shares(const simd::PairBlock& block, int a, int b) {
   for (int lane = 0; lane < block.lanes; ++lane) {
@@ -74,28 +77,31 @@ void Plan::FindIslands(int bodies) {
 void Plan::FindGroups() {
   groups_.clear();
   islands_of_groups_.clear();
-  // large islands alone
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (islands_[i].rows <= kGroupRows) continue;
-    islands_[i].group = static_cast<int>(groups_.size());
-    groups_.push_back({.first_island = static_cast<int>(islands_of_groups_.size()),
-                       .islands = 1,
-                       .rows = islands_[i].rows});
-    islands_of_groups_.push_back(i);
-  }
-  // small ones together, and apart from what nothing can move for
-  bool open = false;
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (islands_[i].rows > kGroupRows) continue;
-    const bool unattached = islands_[i].first_body < 0;
-    if (!open || unattached || groups_.back().rows + islands_[i].rows > kGroupRows) {
-      groups_.push_back({.first_island = static_cast<int>(islands_of_groups_.size())});
-      open = true;
-    }
-    islands_[i].group = static_cast<int>(groups_.size()) - 1;
+  const auto add = [this](int island, bool alone) {
+    if (alone) groups_.push_back({.first_island = static_cast<int>(islands_of_groups_.size())});
+    islands_[island].group = static_cast<int>(groups_.size()) - 1;
     ++groups_.back().islands;
-    groups_.back().rows += islands_[i].rows;
-    islands_of_groups_.push_back(i);
+    groups_.back().rows += islands_[island].rows;
+    islands_of_groups_.push_back(island);
+  };
+  // large islands alone
+  std::int64_t small = 0;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (IsLarge(islands_[i])) {
+      add(i, true);
+    } else if (islands_[i].first_body >= 0) {
+      small += islands_[i].rows;
+    }
+  }
+  // small ones in groups of about one size, and apart from what nothing can move for
+  const std::int64_t count = std::max<std::int64_t>(1, (small + kGroupRows / 2) / kGroupRows);
+  std::int64_t made = 0, rows = 0;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (IsLarge(islands_[i])) continue;
+    const bool full = rows * count >= small * made;
+    if (full) ++made;
+    add(i, full || islands_[i].first_body < 0);
+    rows += islands_[i].rows;
   }
 }
 
@@ -298,7 +304,7 @@ void Plan::FindStages() {
   int rows = kStageRows;  // of the last stage of whole groups
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     const Group& group = groups_[g];
-    if (group.rows > kGroupRows) {
+    if (IsLarge(islands_[islands_of_groups_[group.first_island]])) {
       StagesOf(g);
       continue;
     }

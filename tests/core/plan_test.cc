@@ -258,6 +258,19 @@ TEST(Plan, FillsTheLanesOfBlocksWithSmallIslands) {
   for (const PairBlock& block : p.plan.blocks()) EXPECT_EQ(block.lanes, kLanes);
 }
 
+// A chain of six has 18 rows, and 1,536 are about a group: a last group of a few rows would fill no
+// lanes.
+TEST(Plan, SharesSmallIslandsOutEvenly) {
+  for (const auto& [chains, groups] : {std::pair(86, 1u), {120, 1u}, {150, 2u}, {300, 4u}}) {
+    const Planned p(test::Together(std::vector<Scene>(chains, test::HangingChain(6, 1))));
+    ExpectSound(p);
+    ASSERT_EQ(p.plan.groups().size(), groups);
+    for (const Group& group : p.plan.groups()) {
+      EXPECT_NEAR(group.islands, chains / static_cast<double>(groups), 1);
+    }
+  }
+}
+
 TEST(Plan, GivesALargeIslandAGroupOfItsOwn) {
   const Scene small = test::Tower(3), large = test::Wall(12, 12);
   const Planned p(test::Together({small, large, small}));
