@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "cairn/gyroscopic.h"
 #include "conversions.h"
 
 namespace cairn::bullet {
@@ -19,22 +20,56 @@ Motion MotionOf(const btRigidBody& rigid, btScalar time_step) {
   return motion;
 }
 
-/// The change of spin by gyroscopic terms over a step, in each of the modes that a body asks for.
-btVector3 GyroscopicSpin(const btRigidBody& rigid, const btContactSolverInfo& info) {
-  btVector3 spin(0, 0, 0);
-  const int flags = rigid.getFlags();
-  if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT) != 0) {
-    spin -= rigid.computeGyroscopicForceExplicit(info.m_maxGyroscopicForce) *
-            rigid.getInvInertiaTensorWorld() * info.m_timeStep;
+/// What Bullet adds to the spins of bodies over a step by gyroscopic terms, to the last bit, in
+/// each of the modes that a body asks for. The default one, implicit in the frame of the body, is
+/// done for many bodies at a time.
+class GyroscopicTerms {
+ public:
+  GyroscopicTerms(const btContactSolverInfo& info, std::vector<Motion>* motions)
+      : info_(info), motions_(*motions) {}
+
+  /// Adds those of a body to its motion, at the latest in End().
+  void Add(const btRigidBody& rigid, int number) {
+    const int flags = rigid.getFlags();
+    btVector3& spin = motions_[number].external_spin;
+    if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT) != 0) {
+      spin -= rigid.computeGyroscopicForceExplicit(info_.m_maxGyroscopicForce) *
+              rigid.getInvInertiaTensorWorld() * info_.m_timeStep;
+    }
+    if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD) != 0) {
+      spin += rigid.computeGyroscopicImpulseImplicit_World(info_.m_timeStep);
+    }
+    if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0) AddImplicit(rigid, number);
   }
-  if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD) != 0) {
-    spin += rigid.computeGyroscopicImpulseImplicit_World(info.m_timeStep);
+
+  void End() {
+    if (count_ == 0) return;
+    AddGyroscopicTerms(info_.m_timeStep, &lanes_);
+    for (int l = 0; l < count_; ++l) {
+      motions_[number_[l]].external_spin +=
+          btVector3(lanes_.change[0][l], lanes_.change[1][l], lanes_.change[2][l]);
+    }
+    count_ = 0;
   }
-  if ((flags & BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY) != 0) {
-    spin += rigid.computeGyroscopicImpulseImplicit_Body(info.m_timeStep);
+
+ private:
+  void AddImplicit(const btRigidBody& rigid, int number) {
+    const btQuaternion turn = rigid.getWorldTransform().getRotation();
+    for (int k = 0; k < 3; ++k) {
+      lanes_.inv_moment[k][count_] = rigid.getInvInertiaDiagLocal()[k];
+      lanes_.spin[k][count_] = rigid.getAngularVelocity()[k];
+    }
+    for (int k = 0; k < 4; ++k) lanes_.turn[k][count_] = turn[k];
+    number_[count_++] = number;
+    if (count_ == Gyroscopes<btScalar>::kMost) End();
   }
-  return spin;
-}
+
+  const btContactSolverInfo& info_;
+  std::vector<Motion>& motions_;
+  Gyroscopes<btScalar> lanes_;
+  int number_[Gyroscopes<btScalar>::kMost];
+  int count_ = 0;
+};
 
 /// Bodies lie all over the memory; all of one is read.
 void PrefetchBehind(std::span<btCollisionObject* const> objects, size_t i) {
@@ -69,14 +104,16 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects,
   bodies_.clear();
   motions_.clear();
   rigids_.clear();
+  GyroscopicTerms terms(info, &motions_);
   for (size_t i = 0; i < objects.size(); ++i) {
     const btCollisionObject* const object = objects[i];
     PrefetchBehind(objects, i);
     const int before = size();
     const Party& party = PartyOf(*object);
     if (party.number < before || !party.reacts) continue;
-    motions_[party.number].external_spin += GyroscopicSpin(*rigids_[party.number], info);
+    terms.Add(*rigids_[party.number], party.number);
   }
+  terms.End();
 }
 
 const Party& BodyTable::Enter(const btCollisionObject& object) {

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/gyroscopic.h"
+
+#include "simd/gyroscopic.h"
+
+namespace cairn {
+namespace {
+
+template <class Scalar>
+void Add(simd::GyroscopicKernel<Scalar> kernel, Scalar time_step, Gyroscopes<Scalar>* bodies) {
+  static_assert(Gyroscopes<Scalar>::kMost == simd::kLanes);
+  kernel(time_step, bodies->inv_moment, bodies->turn, bodies->spin, bodies->change);
+}
+
+const simd::GyroscopicKernels& Kernels() {
+  static const simd::GyroscopicKernels& kKernels =
+      simd::GyroscopicKernelsFor(simd::ChooseTarget().target);
+  return kKernels;
+}
+
+}  // namespace
+
+void AddGyroscopicTerms(float time_step, Gyroscopes<float>* bodies) {
+  Add(Kernels().of_floats, time_step, bodies);
+}
+
+void AddGyroscopicTerms(double time_step, Gyroscopes<double>* bodies) {
+  Add(Kernels().of_doubles, time_step, bodies);
+}
+
+}  // namespace cairn
