@@ -41,10 +41,18 @@ class Lattice {
         }
       }
     }
+    std::stable_sort(links.begin(), links.end(),
+                     [this](const Link& a, const Link& b) { return ColourOf(a) < ColourOf(b); });
     return links;
   }
 
  private:
+  /// Links of one colour share no body.
+  int ColourOf(const Link& link) const {
+    if (kind_ == SceneKind::kStaticContact) return link.axis;
+    return 2 * link.axis + Cell(link.b)[link.axis] % 2;
+  }
+
   SceneKind kind_;
   Eigen::Vector3i sides_;
 };

@@ -59,12 +59,27 @@ void WriteRow(const RowScene& scene, const RowScene::Pair& pair, int index, Lane
   if (bound == RowBound::kOwn || bound == RowBound::kFriction) writer->Add(row.limit);
 }
 
+/// As Plan has it: they may be relaxed together.
+bool Alike(const simd::PairBlock& a, const simd::PairBlock& b) {
+  if (a.form != b.form || a.rows != b.rows) return false;
+  std::vector<std::int32_t> bodies(a.a, a.a + kLanes);
+  if (a.form != PairForm::kSingle) bodies.insert(bodies.end(), a.b, a.b + kLanes);
+  const auto shared = [&bodies](std::int32_t body) {
+    return std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+  };
+  return std::none_of(b.a, b.a + kLanes, shared) &&
+         (b.form == PairForm::kSingle || std::none_of(b.b, b.b + kLanes, shared));
+}
+
 }  // namespace
 
 PairScene::PairScene(const RowScene& scene)
     : layouts_(scene.layouts), rows_(static_cast<int>(scene.rows.size())) {
   for (size_t first = 0; first < scene.pairs.size(); first += kLanes) {
     AddBlock(scene, static_cast<int>(first));
+  }
+  for (size_t i = 0; i + 1 < blocks_.size(); ++i) {
+    blocks_[i].like_next = Alike(blocks_[i], blocks_[i + 1]);
   }
   bodies_.resize(scene.bodies.size());
   errors_.resize(blocks_.size());
