@@ -10,6 +10,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "simd/contact_bodies-inl.h"
 #include "simd/contact_rows.h"
 
@@ -292,6 +294,30 @@ inline bool PackContacts(const ContactLanes& lanes, Line* out, Line* x, Line* di
   }
   return false;
 }
+
+inline void UnpackContacts(const ContactResults& results) {
+  const Line zero = {};
+  const Line* friction = results.x + results.points;
+  const Line* direction = results.directions;
+  float* to[kLanes];
+  std::copy_n(results.to, results.lanes, to);
+  for (int p = 0; p < results.points; ++p) {
+    const Line* along[2] = {&zero, &zero};
+    for (int k = 0; k < results.tangents; ++k) along[k] = friction++;
+    const bool slides = results.tangents > 0;
+    const Line* const heading = slides ? direction + 3 : &zero;
+    StoreFour({results.x + p, along[0], along[1], heading}, results.lanes, to, 0);
+    if (slides) {
+      StoreFour({heading, direction, direction + 1, direction + 2}, results.lanes, to, 3);
+    } else {
+      StoreFour({&zero, &zero, &zero, &zero}, results.lanes, to, 3);
+    }
+    for (int l = 0; l < results.lanes; ++l) to[l] += kStartStride;
+    direction += kDirectionLines;
+  }
+}
+
+constexpr ContactKernels kContactKernels = {PackContacts, UnpackContacts};
 
 }  // namespace contacts
 }  // namespace HWY_NAMESPACE

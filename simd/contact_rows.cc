@@ -13,8 +13,8 @@
 
 namespace cairn::simd {
 
-ContactRowsKernel ContactRowsKernelFor(Target target) {
-  return CAIRN_DISPATCH(target, contacts::PackContacts);
+const ContactKernels& ContactKernelsFor(Target target) {
+  return CAIRN_DISPATCH(target, contacts::kContactKernels);
 }
 
 }  // namespace cairn::simd

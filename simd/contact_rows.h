@@ -56,7 +56,25 @@ struct ContactLanes {
 /// target.
 using ContactRowsKernel = bool (*)(const ContactLanes& lanes, Line* out, Line* x, Line* directions);
 
+/// What the points of a block end with.
+struct ContactResults {
+  int points, tangents;
+  int lanes;               ///< In use: the first ones.
+  const Line* x;           ///< Of the normals of all points, then of the friction of each.
+  const Line* directions;  ///< As ContactRowsKernel left them, if there is friction.
+  /// A point every kStartStride numbers: those of a start impulse, then t1.
+  float* to[kLanes] = {};
+};
+
+/// Writes the results of a block to where its lanes want them.
+using ContactResultsKernel = void (*)(const ContactResults& results);
+
+struct ContactKernels {
+  ContactRowsKernel pack;
+  ContactResultsKernel unpack;
+};
+
 /// @pre the CPU supports it
-ContactRowsKernel ContactRowsKernelFor(Target target);
+const ContactKernels& ContactKernelsFor(Target target);
 
 }  // namespace cairn::simd

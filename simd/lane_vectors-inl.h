@@ -40,6 +40,27 @@ HWY_INLINE void TransposeFour(const float* const* from, int number, Line* to) {
 #endif
 }
 
+/// Four numbers of the first lanes, from @p number on: the way back.
+HWY_INLINE void StoreFour(const Line* const (&from)[4], int lanes, float* const* to, int number) {
+#if HWY_TARGET == HWY_SCALAR
+  for (int l = 0; l < lanes; ++l) {
+    for (int k = 0; k < 4; ++k) to[l][number + k] = from[k]->lane[l];
+  }
+#else
+  const hn::FixedTag<float, 4> d;
+  for (int l = 0; l < lanes; l += 4) {
+    const auto x = hn::Load(d, from[0]->lane + l), y = hn::Load(d, from[1]->lane + l);
+    const auto z = hn::Load(d, from[2]->lane + l), w = hn::Load(d, from[3]->lane + l);
+    const auto xz01 = hn::InterleaveLower(d, x, z), yw01 = hn::InterleaveLower(d, y, w);
+    const auto xz23 = hn::InterleaveUpper(d, x, z), yw23 = hn::InterleaveUpper(d, y, w);
+    hn::StoreU(hn::InterleaveLower(d, xz01, yw01), d, to[l] + number);
+    if (l + 1 < lanes) hn::StoreU(hn::InterleaveUpper(d, xz01, yw01), d, to[l + 1] + number);
+    if (l + 2 < lanes) hn::StoreU(hn::InterleaveLower(d, xz23, yw23), d, to[l + 2] + number);
+    if (l + 3 < lanes) hn::StoreU(hn::InterleaveUpper(d, xz23, yw23), d, to[l + 3] + number);
+  }
+#endif
+}
+
 using D = hn::CappedTag<float, kLanes>;
 using V = hn::Vec<D>;
 using M = hn::Mask<D>;

@@ -92,7 +92,7 @@ BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
           .omega = omega_,
           .pack_row = pack_row_,
           .pack_joints = pack_joints_,
-          .pack_contacts = pack_contacts_};
+          .contacts = *contact_kernels_};
 }
 
 bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem) const {

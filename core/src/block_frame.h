@@ -55,7 +55,7 @@ class BlockFrame {
   const simd::LaneKernels* lane_kernels_ = &simd::LaneKernelsFor(target_);
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
   simd::JointRowsKernel pack_joints_ = simd::JointRowsKernelFor(target_);
-  simd::ContactRowsKernel pack_contacts_ = simd::ContactRowsKernelFor(target_);
+  const simd::ContactKernels* contact_kernels_ = &simd::ContactKernelsFor(target_);
   Plan plan_;
   std::vector<RowLaw> laws_;
   std::vector<Joint> planned_joints_;

@@ -41,7 +41,7 @@ struct BlockPacker {
   double omega;
   simd::RowPackKernel pack_row;
   simd::JointRowsKernel pack_joints;
-  simd::ContactRowsKernel pack_contacts;
+  const simd::ContactKernels& contacts;
 
   /// A body as joints and contacts see it.
   const simd::ContactBody* contact_body(int body) const {

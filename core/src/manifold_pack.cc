@@ -107,7 +107,7 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
     lanes.twist_start[lane] = &start.twists[manifold.first_point].spinning;
   }
   const bool fits =
-      packer.pack_contacts(lanes, blocks->data.data() + block.data, blocks->x.data() + block.x,
+      packer.contacts.pack(lanes, blocks->data.data() + block.data, blocks->x.data() + block.x,
                            blocks->directions.data() + DirectionsOf(block));
   return fits ? PackResult::kDone : PackResult::kOutOfRange;
 }
@@ -117,24 +117,23 @@ void WriteManifolds(const BlockPacker& packer, int index, const BlockData& block
   ForManifolds(packer, index + 1,
                [&](const Manifold& next) { PrefetchImpulses(impulses.points, next); });
   const simd::PairBlock& block = packer.plan.blocks()[index];
-  const simd::Line* const normals = blocks.x.data() + block.x;
-  const simd::Line* const directions = blocks.directions.data() + DirectionsOf(block);
+  const Manifold& first = ManifoldOf(packer, index, 0);
+  simd::ContactResults results{.points = first.points,
+                               .tangents = first.tangents,
+                               .lanes = block.lanes,
+                               .x = blocks.x.data() + block.x,
+                               .directions = blocks.directions.data() + DirectionsOf(block)};
   for (int lane = 0; lane < block.lanes; ++lane) {
     const Manifold& manifold = ManifoldOf(packer, index, lane);
-    const simd::Line* friction = normals + manifold.points;
-    for (int p = 0; p < manifold.points; ++p) {
-      ContactImpulse& impulse = impulses.points[manifold.first_point + p];
-      impulse = {.normal = normals[p].lane[lane]};
-      for (int k = 0; k < manifold.tangents; ++k) {
-        impulse.tangential[k] = (friction++)->lane[lane];
-      }
-      if (manifold.tangents == 0) continue;
-      const simd::Line* const direction = directions + simd::kDirectionLines * p;
-      for (int k = 0; k < 3; ++k) impulse.direction[k] = direction[k].lane[lane];
-      impulse.heading = direction[3].lane[lane];
-    }
-    const simd::Line* twist = normals + manifold.points * (1 + manifold.tangents);
-    for (int p = 0; p < manifold.points && manifold.twists; ++p, twist += simd::kTwistRows) {
+    results.to[lane] = &impulses.points[manifold.first_point].normal;
+  }
+  packer.contacts.unpack(results);
+
+  const simd::Line* const twists = results.x + first.points * (1 + first.tangents);
+  for (int lane = 0; lane < block.lanes && first.twists; ++lane) {
+    const Manifold& manifold = ManifoldOf(packer, index, lane);
+    const simd::Line* twist = twists;
+    for (int p = 0; p < manifold.points; ++p, twist += simd::kTwistRows) {
       impulses.twists[manifold.first_point + p] = {
           .spinning = twist[0].lane[lane], .rolling = {twist[1].lane[lane], twist[2].lane[lane]}};
     }
