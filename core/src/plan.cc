@@ -9,10 +9,10 @@ namespace {
 
 using simd::kLanes;
 
-/// Small islands share groups of about so many rows: blocks, impulses and bodies of a group then
-/// fit the first two levels of the cache, and its lanes are full. Larger islands are swept by
-/// colours.
-constexpr int kGroupRows = 1536;
+/// Small islands share groups of at most so many rows: blocks, impulses and bodies of a group then
+/// fit the first two levels of the cache, its lanes are full, and a budget is exceeded by no more.
+/// Larger islands are swept by colours.
+constexpr int kGroupRows = 2048;
 /// A claim of a thread: a few microseconds of work.
 constexpr int kUnitRows = 1024;
 /// The budget is looked at between stages: at most about 50 us of work each, on slow targets too.
@@ -94,12 +94,13 @@ void Plan::FindGroups() {
     }
   }
   // small ones in groups of about one size, and apart from what nothing can move for
-  const std::int64_t count = std::max<std::int64_t>(1, (small + kGroupRows / 2) / kGroupRows);
-  std::int64_t made = 0, rows = 0;
+  const std::int64_t count = (small + kGroupRows - 1) / kGroupRows;
+  std::int64_t shares = 0, rows = 0;
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (IsLarge(islands_[i])) continue;
-    const bool full = rows * count >= small * made;
-    if (full) ++made;
+    const bool has_share = rows * count >= small * shares;
+    if (has_share) ++shares;
+    const bool full = has_share || groups_.back().rows + islands_[i].rows > kGroupRows;
     add(i, full || islands_[i].first_body < 0);
     rows += islands_[i].rows;
   }

@@ -258,17 +258,27 @@ TEST(Plan, FillsTheLanesOfBlocksWithSmallIslands) {
   for (const PairBlock& block : p.plan.blocks()) EXPECT_EQ(block.lanes, kLanes);
 }
 
-// A chain of six has 18 rows, and 1,536 are about a group: a last group of a few rows would fill no
+// A chain of six has 18 rows, and a group 2,048 at most: a last group of a few rows would fill no
 // lanes.
 TEST(Plan, SharesSmallIslandsOutEvenly) {
-  for (const auto& [chains, groups] : {std::pair(86, 1u), {120, 1u}, {150, 2u}, {300, 4u}}) {
+  for (const auto& [chains, groups] : {std::pair(113, 1u), {120, 2u}, {300, 3u}, {900, 8u}}) {
     const Planned p(test::Together(std::vector<Scene>(chains, test::HangingChain(6, 1))));
     ExpectSound(p);
     ASSERT_EQ(p.plan.groups().size(), groups);
     for (const Group& group : p.plan.groups()) {
+      EXPECT_LE(group.rows, 2048);
       EXPECT_NEAR(group.islands, chains / static_cast<double>(groups), 1);
     }
   }
+}
+
+// Walls of 1,300 rows or so: two fit no group.
+TEST(Plan, KeepsGroupsWithinALimitWhateverIslandsThereAre) {
+  const Planned p(test::Together({test::Tower(3), test::Wall(8, 8), test::Tower(3),
+                                  test::Wall(8, 8), test::Tower(3), test::Wall(8, 8)}));
+  ExpectSound(p);
+  for (const Group& group : p.plan.groups()) EXPECT_LE(group.rows, 2048);
+  EXPECT_EQ(p.plan.groups().size(), 3u);
 }
 
 TEST(Plan, GivesALargeIslandAGroupOfItsOwn) {
