@@ -107,6 +107,7 @@ void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, Swe
   constexpr size_t kAhead = 2;
   for (size_t place = 0; place < joints.size(); ++place) {
     if (place + kAhead < joints.size()) PrefetchJoint(*joints[place + kAhead], kMostOfJoint);
+    if (place + 1 < joints.size()) PrefetchBodies(*joints[place + 1]);
     Prepare(joints[place]);
     if (!joints[place]->isEnabled()) continue;
     const JointRows appended = AppendJoint(joints[place], info, limits, form);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "cairn/bullet/precision.h"
 #include "cairn/prefetch.h"
@@ -14,6 +15,14 @@ inline constexpr int kHeadOfJoint = sizeof(btTypedConstraint), kMostOfJoint = 76
 
 /// Asks for a joint before it is needed: joints lie all over the memory of the game.
 inline void PrefetchJoint(const btTypedConstraint& joint, int bytes) { Prefetch(&joint, bytes); }
+
+/// And for its bodies, once it is there: where they are, how they turn and move, their masses.
+inline void PrefetchBodies(const btTypedConstraint& joint) {
+  for (const btRigidBody* body : {&joint.getRigidBodyA(), &joint.getRigidBodyB()}) {
+    Prefetch(&body->getWorldTransform(), sizeof(btTransform));
+    Prefetch(&body->getInvInertiaTensorWorld(), sizeof(btMatrix3x3) + 3 * sizeof(btVector3));
+  }
+}
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet
