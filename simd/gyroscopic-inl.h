@@ -112,8 +112,8 @@ HWY_INLINE Vector<V> Change(D d, V step, const Vector<V>& moment, const Turn<V>&
 }
 
 template <class Scalar>
-void AddTerms(Scalar time_step, const Scalar (*inv_moment)[kLanes], const Scalar (*turn)[kLanes],
-              const Scalar (*spin)[kLanes], Scalar (*change)[kLanes]) {
+void FindTerms(Scalar time_step, const Scalar (*inv_moment)[kLanes], const Scalar (*turn)[kLanes],
+               const Scalar (*spin)[kLanes], Scalar (*change)[kLanes]) {
   const hn::CappedTag<Scalar, kLanes> d;
   using V = hn::Vec<decltype(d)>;
   const auto one = hn::Set(d, 1), zero = hn::Zero(d);
@@ -134,7 +134,7 @@ void AddTerms(Scalar time_step, const Scalar (*inv_moment)[kLanes], const Scalar
   }
 }
 
-constexpr GyroscopicKernels kKernels = {AddTerms<float>, AddTerms<double>};
+constexpr GyroscopicKernels kKernels = {FindTerms<float>, FindTerms<double>};
 
 }  // namespace gyroscopic
 }  // namespace HWY_NAMESPACE

@@ -44,7 +44,7 @@ class GyroscopicTerms {
 
   void End() {
     if (count_ == 0) return;
-    AddGyroscopicTerms(info_.m_timeStep, &lanes_);
+    FindGyroscopicTerms(info_.m_timeStep, &lanes_);
     for (int l = 0; l < count_; ++l) {
       motions_[number_[l]].external_spin +=
           btVector3(lanes_.change[0][l], lanes_.change[1][l], lanes_.change[2][l]);

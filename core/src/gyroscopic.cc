@@ -7,11 +7,12 @@ namespace cairn {
 namespace {
 
 template <class Scalar>
-void Add(simd::GyroscopicKernel<Scalar> kernel, Scalar time_step, Gyroscopes<Scalar>* bodies) {
+void Find(simd::GyroscopicKernel<Scalar> kernel, Scalar time_step, Gyroscopes<Scalar>* bodies) {
   static_assert(Gyroscopes<Scalar>::kMost == simd::kLanes);
   kernel(time_step, bodies->inv_moment, bodies->turn, bodies->spin, bodies->change);
 }
 
+/// Chosen once for all: bits do not depend on it.
 const simd::GyroscopicKernels& Kernels() {
   static const simd::GyroscopicKernels& kKernels =
       simd::GyroscopicKernelsFor(simd::ChooseTarget().target);
@@ -20,12 +21,12 @@ const simd::GyroscopicKernels& Kernels() {
 
 }  // namespace
 
-void AddGyroscopicTerms(float time_step, Gyroscopes<float>* bodies) {
-  Add(Kernels().of_floats, time_step, bodies);
+void FindGyroscopicTerms(float time_step, Gyroscopes<float>* bodies) {
+  Find(Kernels().of_floats, time_step, bodies);
 }
 
-void AddGyroscopicTerms(double time_step, Gyroscopes<double>* bodies) {
-  Add(Kernels().of_doubles, time_step, bodies);
+void FindGyroscopicTerms(double time_step, Gyroscopes<double>* bodies) {
+  Find(Kernels().of_doubles, time_step, bodies);
 }
 
 }  // namespace cairn
