@@ -301,19 +301,14 @@ inline void UnpackContacts(const ContactResults& results) {
   const Line* direction = results.directions;
   float* to[kLanes];
   std::copy_n(results.to, results.lanes, to);
-  for (int p = 0; p < results.points; ++p) {
-    const Line* along[2] = {&zero, &zero};
-    for (int k = 0; k < results.tangents; ++k) along[k] = friction++;
-    const bool slides = results.tangents > 0;
-    const Line* const heading = slides ? direction + 3 : &zero;
-    StoreFour({results.x + p, along[0], along[1], heading}, results.lanes, to, 0);
-    if (slides) {
-      StoreFour({heading, direction, direction + 1, direction + 2}, results.lanes, to, 3);
-    } else {
-      StoreFour({&zero, &zero, &zero, &zero}, results.lanes, to, 3);
-    }
+  for (int p = 0; p < results.points; ++p, direction += kDirectionLines) {
+    const Line* x[2] = {&zero, &zero};
+    const Line* t1[kDirectionLines] = {&zero, &zero, &zero, &zero};
+    for (int k = 0; k < results.tangents; ++k) x[k] = friction++;
+    for (int k = 0; k < kDirectionLines && results.tangents > 0; ++k) t1[k] = direction + k;
+    StoreFour({results.x + p, x[0], x[1], t1[3]}, results.lanes, to, 0);
+    StoreFour({t1[3], t1[0], t1[1], t1[2]}, results.lanes, to, 3);
     for (int l = 0; l < results.lanes; ++l) to[l] += kStartStride;
-    direction += kDirectionLines;
   }
 }
 

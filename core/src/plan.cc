@@ -84,25 +84,30 @@ void Plan::FindGroups() {
     groups_.back().rows += islands_[island].rows;
     islands_of_groups_.push_back(island);
   };
-  // large islands alone
-  std::int64_t small = 0;
+  // large islands alone; of the small ones, how many groups they fill
+  std::int64_t small = 0, count = 0;
+  int room = 0;
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (IsLarge(islands_[i])) {
-      add(i, true);
-    } else if (islands_[i].first_body >= 0) {
-      small += islands_[i].rows;
+    const PlannedIsland& island = islands_[i];
+    if (IsLarge(island)) add(i, true);
+    if (IsLarge(island) || island.first_body < 0) continue;
+    small += island.rows;
+    if (island.rows > room) {
+      ++count;
+      room = kGroupRows;
     }
+    room -= island.rows;
   }
-  // small ones in groups of about one size, and apart from what nothing can move for
-  const std::int64_t count = (small + kGroupRows - 1) / kGroupRows;
+  // a share of the rows for each of them, and apart from what nothing can move for
   std::int64_t shares = 0, rows = 0;
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (IsLarge(islands_[i])) continue;
-    const bool has_share = rows * count >= small * shares;
-    if (has_share) ++shares;
-    const bool full = has_share || groups_.back().rows + islands_[i].rows > kGroupRows;
-    add(i, full || islands_[i].first_body < 0);
-    rows += islands_[i].rows;
+    const PlannedIsland& island = islands_[i];
+    if (IsLarge(island)) continue;
+    const bool begins = rows * count >= small * shares || island.first_body < 0 ||
+                        groups_.back().rows + island.rows > kGroupRows;
+    if (begins) ++shares;
+    add(i, begins);
+    rows += island.rows;
   }
 }
 
@@ -305,7 +310,7 @@ void Plan::FindStages() {
   int rows = kStageRows;  // of the last stage of whole groups
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     const Group& group = groups_[g];
-    if (IsLarge(islands_[islands_of_groups_[group.first_island]])) {
+    if (group.rows > kGroupRows) {
       StagesOf(g);
       continue;
     }

@@ -258,16 +258,21 @@ TEST(Plan, FillsTheLanesOfBlocksWithSmallIslands) {
   for (const PairBlock& block : p.plan.blocks()) EXPECT_EQ(block.lanes, kLanes);
 }
 
-// A chain of six has 18 rows, and a group 2,048 at most: a last group of a few rows would fill no
-// lanes.
+// A chain of n has 3 n rows, and a group 2,048 at most: a group of a few rows would fill no lanes.
 TEST(Plan, SharesSmallIslandsOutEvenly) {
-  for (const auto& [chains, groups] : {std::pair(113, 1u), {120, 2u}, {300, 3u}, {900, 8u}}) {
-    const Planned p(test::Together(std::vector<Scene>(chains, test::HangingChain(6, 1))));
+  struct Case {
+    int chains, length;
+    size_t groups;
+  };
+  for (const Case& of : {Case{113, 6, 1}, Case{120, 6, 2}, Case{300, 6, 3}, Case{900, 6, 8},
+                         Case{13, 100, 3}, Case{7, 300, 4}}) {
+    const Planned p(
+        test::Together(std::vector<Scene>(of.chains, test::HangingChain(of.length, 1))));
     ExpectSound(p);
-    ASSERT_EQ(p.plan.groups().size(), groups);
+    ASSERT_EQ(p.plan.groups().size(), of.groups) << of.chains;
     for (const Group& group : p.plan.groups()) {
       EXPECT_LE(group.rows, 2048);
-      EXPECT_NEAR(group.islands, chains / static_cast<double>(groups), 1);
+      EXPECT_NEAR(group.islands, of.chains / static_cast<double>(of.groups), 1) << of.chains;
     }
   }
 }

@@ -4,7 +4,7 @@
 namespace cairn {
 
 /// Bodies whose gyroscopic terms are wanted, up to kMost at a time: number k of body l is at
-/// [k][l]. Lanes of no body may hold anything finite.
+/// [k][l]. Lanes of no body may hold anything.
 template <class Scalar>
 struct Gyroscopes {
   static constexpr int kMost = 16;
