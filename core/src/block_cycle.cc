@@ -38,6 +38,7 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
   steps_.Begin(problem, settings, frame, memories, meter, crew, asked);
   Begin();
+  GuardStart();
   while (Active()) Leg();
   meter_->Begin();
   Finish();
@@ -71,6 +72,36 @@ void BlockCycle::Begin() {
     islands_[i].stop = StopReason::kSweepLimit;
     made_[plan.islands()[i].group].active = false;
   }
+}
+
+void BlockCycle::GuardStart() {
+  guards_ = IsGuarded(*settings_);
+  if (!guards_) return;
+  merits_.Find(frame_, made_);
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (Done(i) || !merits_.of(i).is_worse_than_none()) continue;
+    ScaleIsland(frame_->plan(), i, merits_.of(i).best_scale(), &frame_->blocks());
+    islands_[i].guards.start = true;
+  }
+}
+
+void BlockCycle::GuardResult() {
+  for (GroupSweeps& group : chosen_) group.active = true;
+  merits_.Find(frame_, chosen_);
+  ChooseNone();
+  bool any = false;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    if (!guards_ || !merits_.of(i).is_worse_than_none()) continue;
+    ScaleIsland(frame_->plan(), i, merits_.of(i).best_scale(), &frame_->blocks());
+    islands_[i].guards.result = true;
+    if (steps_.asked()) steps_.Guarded(i);
+    Choose(i);
+    any = true;
+  }
+  if (!any) return;
+  sweeps_->MeasureFree(chosen_);
+  ReadErrors(&after_);
+  merits_.Find(frame_, chosen_);
 }
 
 bool BlockCycle::Active() const {
@@ -281,10 +312,13 @@ void BlockCycle::Finish() {
     best_.Restore(plan, i, blocks);
     after_[i] = states_[i].best;
   }
+  GuardResult();
 }
 
 void BlockCycle::FillReport(Report* report) const {
   const Plan& plan = frame_->plan();
+  const std::span<const int> island_of = plan.island_of_body();
+  report->island_of.assign(island_of.begin(), island_of.end());
   report->islands.resize(islands_.size());
   for (size_t i = 0; i < islands_.size(); ++i) {
     IslandReport& island = report->islands[i] = islands_[i];
@@ -292,6 +326,7 @@ void BlockCycle::FillReport(Report* report) const {
     island.bodies = plan.islands()[i].bodies;
     island.rows = plan.islands()[i].rows;
     island.residual = after_[i];
+    island.merit = merits_.of(static_cast<int>(i)).value();
     if (!started_) island.residual_before = island.residual;
   }
 }

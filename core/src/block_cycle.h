@@ -11,6 +11,7 @@
 #include "cairn/report.h"
 #include "cairn/settings.h"
 #include "crew.h"
+#include "merit.h"
 #include "pgs/block_sweep.h"
 #include "pgs/nncg.h"
 
@@ -49,10 +50,15 @@ class BlockCycle {
     bool too_late = false;  ///< a step does not fit any more
     bool stepped = false;   ///< a step was taken before this leg, and is not judged yet
     bool better_alone = false;
-    bool rests = false;  ///< one was judged after this leg: the next leg is one of sweeps
+    bool harmful = false;  ///< the step is undone, whatever sweeps alone do
+    bool rests = false;    ///< one was judged after this leg: the next leg is one of sweeps
   };
 
   void Begin();
+  /// Scales start impulses that are worse than none.
+  void GuardStart();
+  /// Likewise impulses in the end.
+  void GuardResult();
   void Leg();
   /// Makes so many sweeps, unless the budget ends before. The last one is seen.
   bool Sweep(int count);
@@ -94,6 +100,13 @@ class BlockCycle {
   void FindCandidates();
   double SureGain() const;
   void KeepBetterSteps(int sweeps);
+  /// Which steps put in energy, or impulses of joints that floats cannot hold.
+  void FindHarm();
+  /// The sweeps without its step brought an island closer to its solution than those with it.
+  bool IsBetterAlone(int island) const;
+  /// By how much a step and its sweeps brought phi down, see Merit, and so many sweeps alone [J].
+  double GainOfStep(int island) const;
+  double GainAlone(int island) const;
   void TryWithoutSteps(int sweeps);
   /// Work of the steps that are to be taken after a leg, and of the sweeps that they need.
   struct PlannedSteps {
@@ -121,6 +134,7 @@ class BlockCycle {
   BlockSteps steps_;
   bool watches_ = false;  ///< what steps and sweeps make of the budget
   bool accelerates_ = false;
+  bool guards_ = false;
   Nncg nncg_;
 
   std::vector<GroupSweeps> made_, chosen_;
@@ -128,6 +142,7 @@ class BlockCycle {
   std::vector<IslandReport> islands_;
   std::vector<int> stepped_islands_, stopped_;
   std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
+  IslandMerits merits_, merits_before_, alone_merits_;
   BlockSnapshot done_, best_, before_steps_, after_steps_;
   int legs_ = 0;
   bool started_ = false;  ///< a whole sweep was made

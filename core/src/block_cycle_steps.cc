@@ -77,6 +77,9 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
   const double sweeps =
       (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
   const double rows = static_cast<double>(frame_->plan().groups()[g].rows);
+  // what a sweep costs does not depend on how full the lanes are, so that an island does not see
+  // who shares them
+  const double lanes = static_cast<double>(simd::kLanes) * frame_->plan().groups()[g].x_lines;
   const PlannedSteps before{planned->steps, planned->sweeps + sweeps * rows};
   if (const NoStep refused = PlanGraph(g, islands, before); refused != NoStep::kEnded) {
     return refused;
@@ -86,7 +89,7 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
   NoStep refused = NoStep::kTooDear;
   for (int most = settings_->k_sm; most > 0; --most) {
     const double price = steps_.Price(g, islands, most);
-    if (!always && price > kMostSweeps * rows) continue;
+    if (!always && price > kMostSweeps * lanes) continue;
     if (!meter_->Fits(before.steps + price, before.sweeps)) continue;
     refused = NoStep::kSweepsFaster;
     if (!StepPays(g, islands, before.steps, price)) continue;
@@ -99,6 +102,10 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
 
 bool BlockCycle::StepPays(int g, std::span<const int> islands, double planned, double price) {
   if (!watches_) return true;
+  const bool first = std::all_of(islands.begin(), islands.end(), [&](int i) {
+    return steps_.odds(i).carries() && StepsTaken(i) == 0 && !steps_.odds(i).stale();
+  });
+  if (first) return true;
   double cut = 0, power = 0;
   int sweeps = settings_->max_sweeps;
   for (int i : islands) {
@@ -167,6 +174,7 @@ void BlockCycle::TakeSteps() {
   ChooseNone();
   for (int i : stepped_islands_) Choose(i);
   MeasureChosen(&before_);
+  merits_before_.Find(frame_, chosen_);
 
   // islands of a group follow each other
   const Plan& plan = frame_->plan();
@@ -197,11 +205,12 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
   ChooseNone();
   for (int i : stepped_islands_) Choose(i);
   MeasureChosen(&with_step_);
+  FindHarm();
   ChooseNone();
   bool sure = true;
   for (int i : stepped_islands_) {
     states_[i].better_alone = false;
-    if (with_step_[i].energy <= SureGain() * before_[i].energy) continue;
+    if (!states_[i].harmful && with_step_[i].energy <= SureGain() * before_[i].energy) continue;
     Choose(i);
     sure = false;
   }
@@ -214,12 +223,40 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
     }
     if (accepted) BeginRun(i, SweepsMade() - sweeps);
     if (!accepted) nncg_.Forget(i);
+    if (states_[i].harmful) {
+      islands_[i].guards.step = true;
+      steps_.Guarded(i);
+    }
     steps_.Judge(i, accepted);
     ++(accepted ? islands_[i].steps_accepted : islands_[i].steps_restored);
     states_[i].stepped = false;
     states_[i].rests = true;
   }
   stepped_islands_.clear();
+}
+
+double BlockCycle::GainOfStep(int i) const {
+  return merits_before_.of(i).value() - merits_.of(i).value();
+}
+
+double BlockCycle::GainAlone(int i) const {
+  return merits_before_.of(i).value() - alone_merits_.of(i).value();
+}
+
+bool BlockCycle::IsBetterAlone(int i) const {
+  if (with_step_[i].energy <= SureGain() * before_[i].energy) return false;
+  const StepTrial trial{.with_step = with_step_[i].energy,
+                        .alone = alone_[i].energy,
+                        .closer = GainOfStep(i) > GainAlone(i)};
+  return trial.is_better_alone();
+}
+
+void BlockCycle::FindHarm() {
+  merits_.Find(frame_, chosen_);
+  for (int i : stepped_islands_) {
+    states_[i].harmful =
+        guards_ && (merits_.of(i).is_worse_than_none() || IsTooMuch(steps_.result(i).joint_speed));
+  }
 }
 
 void BlockCycle::TryWithoutSteps(int sweeps) {
@@ -237,10 +274,11 @@ void BlockCycle::TryWithoutSteps(int sweeps) {
   }
   if (sweeps_->Sweep(sweeps, chosen_) && sweeps > 0) See(chosen_);
   MeasureChosen(&alone_);
+  alone_merits_.Find(frame_, chosen_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Chosen(i)) continue;
-    states_[i].better_alone = states_[i].stepped && with_step_[i].energy > alone_[i].energy &&
-                              with_step_[i].energy > SureGain() * before_[i].energy;
+    states_[i].better_alone = states_[i].stepped && (states_[i].harmful || IsBetterAlone(i));
+    if (states_[i].stepped && watches_) steps_.odds(i).LearnGains(GainOfStep(i), GainAlone(i));
     if (states_[i].better_alone) continue;
     states_[i].seen = states_[i].seen_with_step;
     after_steps_.Restore(plan, i, blocks);

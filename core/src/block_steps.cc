@@ -168,7 +168,11 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
   const auto chosen = [this](int i) { return (in_double_[i] != 0) == std::is_same_v<T, double>; };
   if (std::none_of(islands.begin(), islands.end(), chosen)) return;
   for (int i : islands) {
-    islands_now_[i] = {.taken = chosen(i), .proximal = MemoryOf(i)->Step(*settings_).proximal};
+    const StepSettings step = MemoryOf(i)->Step(*settings_);
+    islands_now_[i] = {.taken = chosen(i),
+                       .proximal = step.proximal,
+                       .proximal_joints = step.proximal_joints,
+                       .leak_joints = step.leak_joints};
   }
   const StepSettings settings = {.proximal = settings_->proximal,
                                  .proximal_joints = settings_->proximal_joints,
@@ -187,6 +191,7 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
   for (int i : islands) {
     if (chosen(i)) {
       islands_[i] = islands_now_[i];
+      MemoryOf(i)->SawJoints(islands_[i].result.joint_speed);
       work_[i] = price * frame_->plan().islands()[i].rows / rows;
     }
     islands_now_[i].taken = false;

@@ -51,6 +51,8 @@ class BlockSteps {
   const StepResult& result(int island) const { return islands_[island].result; }
   /// What was charged for it: its share of the group's, by rows.
   double work(int island) const { return work_[island]; }
+  /// A guard undid something on the island.
+  void Guarded(int island) { MemoryOf(island)->Guarded(); }
   /// What became of the step.
   void Judge(int island, bool accepted);
 

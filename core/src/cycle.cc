@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "merit.h"
 #include "pgs/row_sweep.h"
 #include "residual.h"
 #include "subspace/step.h"
@@ -29,8 +30,18 @@ IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Se
     : island_(island), settings_(settings), memory_(memory), at_{.state = std::move(start)} {
   const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
   if (asked) report_.no_step = NoStep::kEnded;
+  guards_ = IsGuarded(settings_);
+  report_.guards.start = GuardState();
   report_.residual_before = MeasureResidual(island_, at_.state);
   if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
+}
+
+bool IslandCycle::GuardState() {
+  if (!guards_) return false;
+  const Merit merit = MeasureMerit(island_, at_.state);
+  if (!merit.is_worse_than_none()) return false;
+  ScaleState(merit.best_scale(), &at_.state);
+  return true;
 }
 
 void IslandCycle::Advance(BudgetMeter* meter) {
@@ -124,7 +135,14 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
 
   // judged after sweeps: before them, nearly every good step looks worse
   Sweeps(SweepsOfLeg(), meter);
-  if (result.solved && KeepBetter(before, meter)) {
+  memory_->SawJoints(result.joint_speed);
+  const bool worse = MeasureMerit(island_, at_.state).is_worse_than_none();
+  const bool sound = !guards_ || !(worse || IsTooMuch(result.joint_speed));
+  if (!sound) {
+    report_.guards.step = true;
+    memory_->Guarded();
+  }
+  if (result.solved && KeepBetter(before, sound, meter)) {
     memory_->Accepted();
     ++report_.steps_accepted;
   } else {
@@ -133,19 +151,26 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
   }
 }
 
-bool IslandCycle::KeepBetter(Point before, BudgetMeter* meter) {
+bool IslandCycle::KeepBetter(Point before, bool sound, BudgetMeter* meter) {
   const Residual with_step = MeasureNow(meter);
-  if (with_step.energy <= kSureGain * residual_.energy) return true;
+  if (sound && with_step.energy <= kSureGain * residual_.energy) return true;
 
   // the same number of sweeps without the step, as far as the budget goes
+  const double merit = MeasureMerit(island_, at_.state).value();
   Point stepped = std::exchange(at_, std::move(before));
   Sweeps(stepped.sweeps - at_.sweeps, meter);
-  if (with_step.energy > MeasureNow(meter).energy) return false;
+  const StepTrial trial{.with_step = with_step.energy,
+                        .alone = MeasureNow(meter).energy,
+                        .closer = merit < MeasureMerit(island_, at_.state).value()};
+  if (!sound || trial.is_better_alone()) return false;
   at_ = std::move(stepped);
   return true;
 }
 
 IslandReport IslandCycle::Finish() {
+  report_.guards.result = GuardState();
+  if (report_.guards.result) memory_->Guarded();
+  report_.merit = MeasureMerit(island_, at_.state).value();
   report_.bodies = island_.bodies;
   report_.rows = static_cast<int>(island_.rows.size());
   report_.sweeps = at_.sweeps;

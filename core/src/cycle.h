@@ -42,7 +42,10 @@ class IslandCycle {
   bool StepPays(BudgetMeter* meter);
   void StepLeg(BudgetMeter* meter);
   /// After a step: keeps it, or the same number of sweeps from @p before alone.
-  bool KeepBetter(Point before, BudgetMeter* meter);
+  /// @p sound: it may be kept
+  bool KeepBetter(Point before, bool sound, BudgetMeter* meter);
+  /// Scales impulses that are worse than none; whether they were.
+  bool GuardState();
 
   /// Up to @p count sweeps; stops early when the budget is spent or nothing moves.
   void Sweeps(int count, BudgetMeter* meter);
@@ -60,6 +63,7 @@ class IslandCycle {
   Point at_;
   Residual residual_;  ///< before a step
   bool step_next_ = false;
+  bool guards_ = false;
   IslandReport report_;
 };
 

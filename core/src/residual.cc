@@ -7,6 +7,7 @@
 #include "cairn/contact_problem.h"
 #include "contact_expansion.h"
 #include "islands.h"
+#include "merit.h"
 #include "validate.h"
 
 namespace cairn {
@@ -52,6 +53,7 @@ Report MeasureRows(const ContactProblem& problem, std::span<const double> impuls
     part.bodies = packed.bodies;
     part.rows = static_cast<int>(packed.rows.size());
     part.residual = MeasureResidual(packed, state);
+    part.merit = MeasureMerit(packed, state).value();
     Accumulate(part.residual, &report);
   }
   return report;

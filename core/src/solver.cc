@@ -41,6 +41,7 @@ void SumUp(Report* report) {
     report->factorisations += island.factorisations;
     report->steps_accepted += island.steps_accepted;
     report->steps_restored += island.steps_restored;
+    report->guarded += island.guards.any() ? 1 : 0;
     report->stop = WorseOf(report->stop, island.stop);
   }
 }
@@ -112,7 +113,9 @@ void Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter,
   // results back
   meter->Begin();
   packer.WriteFreeVelocities(velocities);
+  report->island_of.assign(problem.bodies.size(), -1);
   for (size_t i = 0; i < islands.size(); ++i) {
+    for (int body : islands[i].bodies) report->island_of[body] = static_cast<int>(i);
     const IslandState& state = cycles[i].state();
     for (size_t k = 0; k < state.x.size(); ++k) impulses[islands[i].rows[k]] = state.x[k];
     packer.WriteVelocities(islands[i], state, velocities);
@@ -172,10 +175,13 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                    std::span<Velocity> velocities, Report* report) {
   // all but the memory of an earlier report
   std::vector<IslandReport> islands = std::move(report->islands);
+  std::vector<int> island_of = std::move(report->island_of);
   Replay replay = std::move(report->replay);
   islands.clear();
+  island_of.clear();
   *report = Report{};
   report->islands = std::move(islands);
+  report->island_of = std::move(island_of);
   report->replay = std::move(replay);
 
   const Settings& settings = impl_->settings;

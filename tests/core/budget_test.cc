@@ -155,7 +155,8 @@ TEST(Work, MoreOfItNeverLeavesMoreEnergyWithoutFriction) {
   EXPECT_LT(before, -1);
 }
 
-// Nothing may be started: what comes back is the start, brought inside its bounds.
+// Nothing may be started: what comes back is the start, brought inside its bounds. This one is
+// rotten, so it is left alone by plain methods only; see Guards.
 TEST(Budget, OfNothingGivesTheProjectedWarmStart) {
   const Scene scene = BigPile(4);
   test::Random random(4);
@@ -169,7 +170,8 @@ TEST(Budget, OfNothingGivesTheProjectedWarmStart) {
   const Eigen::VectorXd v = dense.free + dense.inverse_mass * (dense.J.transpose() * expected);
   for (const Budget& nothing : {Budget::Work(0), Budget::Time(nanoseconds(0))}) {
     const Solution s = test::Solve(
-        Within({.order = SweepOrder::kForward, .min_sweeps = 0}, nothing), scene, start);
+        Within({.method = Method::kPgs, .order = SweepOrder::kForward, .min_sweeps = 0}, nothing),
+        scene, start);
     EXPECT_EQ(test::ToVector(s.x), expected);
     EXPECT_LT((test::Flatten(s.v) - v).cwiseAbs().maxCoeff(), 1e-12);
     EXPECT_EQ(s.report.sweeps, 0);

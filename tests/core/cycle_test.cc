@@ -58,7 +58,7 @@ Scene Irregular(std::uint64_t seed) {
 // Every step of these was undone: what is left is plain sweeps, as many as were made.
 TEST(Steps, ThatAreUndoneLeaveTheBitsOfPlainSweeps) {
   int undone = 0;
-  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const Scene scene = Irregular(seed);
     for (int sweeps : {10, 20, 40}) {
       const Solution s = test::Solve(AlwaysSteps(sweeps), scene);
@@ -75,7 +75,8 @@ TEST(Steps, ThatAreUndoneLeaveTheBitsOfPlainSweeps) {
 }
 
 // 5 sweeps, a step, 5 sweeps. The step was compared with 5 sweeps alone, so the end is no worse
-// than 10 plain sweeps, to the bit. There is one exception, by design: a step that brought the
+// than 10 plain sweeps: its residual is no larger, or it is closer in energy and at most four times
+// as rough. There is one exception, by design: a step that brought the
 // residual to a tenth (kSureGain, cycle.cc) is kept without the comparison. In longer runs nothing
 // is promised: each comparison starts where the last one ended.
 TEST(Steps, NeverEndOneCycleWorseThanPlainSweeps) {
@@ -84,13 +85,15 @@ TEST(Steps, NeverEndOneCycleWorseThanPlainSweeps) {
     for (const Scene& scene :
          {Irregular(seed), test::RandomPile({.bodies = 6, .contacts = 6, .pins = 4}, seed)}) {
       const double before = test::Solve(PlainSweeps(5), scene).report.residual_energy;
-      const double plain = test::Solve(PlainSweeps(10), scene).report.residual_energy;
+      const Report swept = test::Solve(PlainSweeps(10), scene).report;
+      const double plain = swept.residual_energy;
       const Report stepped = test::Solve(AlwaysSteps(10), scene).report;
       if (stepped.islands.size() != 1) continue;
       if (stepped.residual_energy <= 0.1 * before) continue;  // sure gain: see above
-      EXPECT_LE(stepped.residual_energy, plain) << seed;
+      const bool closer = stepped.islands[0].merit < swept.islands[0].merit;
+      EXPECT_LE(stepped.residual_energy, (closer ? 4 : 1) * plain) << seed;
       ++compared;
-      if (stepped.residual_energy < plain) ++better;
+      if (closer) ++better;
     }
   }
   EXPECT_GT(compared, 100);

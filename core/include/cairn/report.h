@@ -72,6 +72,19 @@ struct Residual {
   double energy = 0;       ///< sqrt(sum e_i^2 / d_i) [sqrt(J)].
 };
 
+/// What the solver did on an island to keep it from putting in energy that nothing asks for. An
+/// island on which a step or the result was guarded is left to sweeps for a while. Method::kPgsSm
+/// with LiftedFriction::kRelease only; plain methods are what their names say.
+struct Guards {
+  bool start = false;  ///< The start impulses were worse than none, and scaled down.
+  bool step = false;   ///< A subspace step was undone: it put in energy, or left impulses of joints
+                       ///< that floats cannot hold against each other.
+  bool result = false;  ///< The impulses of the last sweep were worse than none, and scaled down.
+
+  bool any() const { return start || step || result; }
+  friend bool operator==(const Guards&, const Guards&) = default;
+};
+
 /// What was done on one island: bodies connected by rows, world excluded.
 struct IslandReport {
   int first_body = -1;  ///< Lowest index of its bodies in the problem.
@@ -81,6 +94,12 @@ struct IslandReport {
   /// On the reference path (SweepOrder::kForward and its like) of the start itself.
   Residual residual_before;
   Residual residual;  ///< Of the result.
+  /// What impulses are worth [J], 0 for none: 1/2 |M^-1/2 J'x|^2 + 1/2 x'E x - (target - J
+  /// v_free)'x, the energy that the problem minimises with bounds of friction frozen. At 0 or
+  /// below, the kinetic energy after the step is at most that without impulses and what the targets
+  /// of rows put in. docs/solver.md has a bound of that.
+  double merit = 0;
+  Guards guards;
   int sweeps = 0;
   int factorisations = 0;
   int steps_accepted = 0;  ///< Subspace steps kept.
@@ -128,6 +147,7 @@ struct [[nodiscard]] Report {
   int factorisations = 0;       ///< Sum over islands, like the two below.
   int steps_accepted = 0;
   int steps_restored = 0;
+  int guarded = 0;  ///< Islands that something was guarded on; see Guards.
   StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
                                               ///< any island before a sweep limit before the rest.
   /// Problems in matrix form: LcpResidual::relative. 0 for others.
@@ -142,6 +162,8 @@ struct [[nodiscard]] Report {
   std::chrono::nanoseconds step_predicted{0}, step_time{0};
   Phases phases;  ///< Problems in matrix form, 0 unless the budget is a time.
   std::vector<IslandReport> islands;
+  std::vector<int> island_of;  ///< By body: its place in islands, -1 for one without rows. Of a
+                               ///< contact problem that was solved.
 
   bool ok() const { return status == Status::kOk; }
 };

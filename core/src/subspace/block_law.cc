@@ -2,6 +2,7 @@
 #include "subspace/block_law.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cairn {
@@ -149,7 +150,7 @@ void BlockLaw<T>::FindWeights() const {
   ForRows(block, lines, [this](int i, const RowView& row) {
     const bool joint = row.shape.bound == RowBound::kFree;
     for (int l = 0; l < kLanes; ++l) {
-      const T eps = joint ? lanes.proximal_joints : lanes.proximal.lane[l];
+      const T eps = joint ? lanes.proximal_joints.lane[l] : lanes.proximal.lane[l];
       const T soft = row.shape.soft ? static_cast<T>(row.compliance->lane[l]) : T{0};
       const T weight = lanes.taken.lane[l] / (soft + eps / row.InverseDiagonal<T>(l));
       weights[i].lane[l] = sides[i].lane[l] == RowSide::kFree ? weight : T{0};
@@ -193,6 +194,27 @@ std::uint32_t BlockLaw<T>::RemoveViolated() const {
     }
   });
   return removed;
+}
+
+template <class T>
+void BlockLaw<T>::Leak() const {
+  ForRows(block, lines, [&](int i, const RowView& row) {
+    if (row.shape.bound != RowBound::kFree) return;
+    for (int l = 0; l < kLanes; ++l) x[i].lane[l] *= lanes.kept_joints.lane[l];
+  });
+}
+
+template <class T>
+LineOf<T> BlockLaw<T>::FindJointSpeeds() const {
+  LineOf<T> speeds = {};
+  ForRows(block, lines, [&](int i, const RowView& row) {
+    if (row.shape.bound != RowBound::kFree) return;
+    for (int l = 0; l < kLanes; ++l) {
+      const T speed = std::abs(x[i].lane[l]) / row.InverseDiagonal<T>(l);
+      speeds.lane[l] = std::max(speeds.lane[l], speed);
+    }
+  });
+  return speeds;
 }
 
 template <class T>

@@ -36,8 +36,10 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
   blocks_ = blocks;
   system_ = system;
   islands_ = islands;
-  Read(settings);
+  Read();
   Predict();
+  if (leaks_) ForBlocks([](const BlockLaw<T>& law) { law.Leak(); });
+  if (bounded_) start_ = x_;
 
   // those from whose sets rows had to be removed, again; others are done when they are refined
   int made = 0;
@@ -58,6 +60,7 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
     RefineWhileSetHolds(settings.refinements);
   }
   if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Project(); });
+  FindJointSpeeds();
   Write();
   return made;
 }
@@ -75,7 +78,6 @@ void BlockStep<T>::Predict() {
     std::fill(sides_.begin(), sides_.end(), SideLine{});
     return;
   }
-  start_ = x_;
   ReadVelocities();
   FindSlack();
   ForBlocks([](const BlockLaw<T>& law) { law.Predict(); });
@@ -154,7 +156,7 @@ BlockLaw<T> BlockStep<T>::LawOf(int b) {
 }
 
 template <class T>
-void BlockStep<T>::Read(const StepSettings& settings) {
+void BlockStep<T>::Read() {
   const auto lines = static_cast<size_t>(group_->x_lines);
   for (auto* of_rows : {&x_, &slack_, &weights_, &product_}) of_rows->resize(lines);
   sides_.resize(lines);
@@ -172,15 +174,19 @@ void BlockStep<T>::Read(const StepSettings& settings) {
 
   FindTolerances();
   lanes_.resize(group_->blocks);
+  leaks_ = false;
   for (int b = 0; b < group_->blocks; ++b) {
     LaneSettings<T>& lanes = lanes_[b];
-    lanes.proximal_joints = static_cast<T>(settings.proximal_joints);
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
     for (int l = 0; l < kLanes; ++l) {
       const int island = l < block.lanes ? plan_->island_of(group_->first_block + b, l) : -1;
       const bool taken = island >= 0 && islands_[island].taken;
       lanes.taken.lane[l] = 0;
       lanes.proximal.lane[l] = taken ? static_cast<T>(islands_[island].proximal) : 1;
+      lanes.proximal_joints.lane[l] = taken ? static_cast<T>(islands_[island].proximal_joints) : 1;
+      const double leak = taken ? islands_[island].leak_joints : 0;
+      lanes.kept_joints.lane[l] = static_cast<T>(1 - leak);
+      leaks_ = leaks_ || leak > 0;
       lanes.tolerance.lane[l] =
           taken ? static_cast<T>(kActiveTolerance * sums_[island] / counts_[island]) : 0;
     }
@@ -306,6 +312,18 @@ void BlockStep<T>::Remove() {
     for (int l = 0; l < kLanes && removed != 0; ++l) {
       if ((removed >> l & 1) == 0) continue;
       phases_[plan_->island_of(group_->first_block + b, l)] = kOpen;
+    }
+  }
+}
+
+template <class T>
+void BlockStep<T>::FindJointSpeeds() {
+  for (int b = 0; b < group_->blocks; ++b) {
+    const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
+    const LineT speeds = LawOf(b).FindJointSpeeds();
+    for (int l = 0; l < block.lanes; ++l) {
+      double& speed = islands_[plan_->island_of(group_->first_block + b, l)].result.joint_speed;
+      speed = std::max(speed, static_cast<double>(speeds.lane[l]));
     }
   }
 }

@@ -15,9 +15,9 @@ namespace cairn {
 
 /// What an island brings to a step, and what becomes of it; by island of the plan.
 struct IslandStep {
-  bool taken = false;      ///< the island takes it; for others nothing changes
-  double proximal = 0;     ///< see StepSettings
-  StepResult result = {};  ///< out
+  bool taken = false;  ///< the island takes it; for others nothing changes
+  double proximal = 0, proximal_joints = 0, leak_joints = 0;  ///< see StepSettings
+  StepResult result = {};                                     ///< out
 };
 
 /// TakeStep() for islands of a group that is in blocks, each as if it were alone, on numbers of its
@@ -27,8 +27,8 @@ class BlockStep {
  public:
   explicit BlockStep(simd::Target target) : products_(simd::PairProductsFor<T>(target)) {}
 
-  /// @p islands: one for each of the plan. Of the settings, the proximal term of rows with bounds
-  /// is not used. An island whose system could not be factorised stays as it is. Returns how many
+  /// @p islands: one for each of the plan. Of the settings, proximal terms and the leak are not
+  /// used. An island whose system could not be factorised stays as it is. Returns how many
   /// factorisations were made in all.
   /// @pre system->IsPreparedFor() this group
   int Take(const Plan& plan, int group, const StepSettings& settings, BlockSystem<T>* system,
@@ -37,7 +37,7 @@ class BlockStep {
  private:
   using LineT = simd::LineOf<T>;
 
-  void Read(const StepSettings& settings);
+  void Read();
   void FindTolerances();
   void Predict();
   /// u as the sweeps left it: floats that x belongs to but for rounding.
@@ -46,6 +46,7 @@ class BlockStep {
   void Refine();
   void RefineWhileSetHolds(int refinements);
   void Remove();
+  void FindJointSpeeds();
   void Write();
   /// function(island) for those of the group
   template <class Function>
@@ -73,6 +74,7 @@ class BlockStep {
   BlockSystem<T>* system_ = nullptr;
   std::span<IslandStep> islands_;
   bool bounded_ = false;                      ///< some row of the group has bounds
+  bool leaks_ = false;                        ///< some island forgets impulses of joints
   std::vector<char> phases_, phases_before_;  ///< by island
 
   std::vector<LaneSettings<T>> lanes_;  ///< by block

@@ -2,6 +2,8 @@
 #include "subspace/policy.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace cairn {
 namespace {
@@ -25,13 +27,31 @@ constexpr double kLeastProximal = 1e-8;
 /// By which what a failure taught fades with each success: some 35 of them halve it.
 constexpr double kForgetFailures = 0.98;
 
+/// Of impulses of joints, see StepResult::joint_speed [m/s]: what is more rounds by more than
+/// 0.6 mm/s in floats. A chain that carries 10,000 times a link comes to 3,000.
+constexpr double kMostJointSpeed = 1e4;
+/// Where this share of it is reached for long, joints are made harder again.
+constexpr double kCalm = 0.03;
+constexpr int kMostCalm = 3840;
+/// What joints are softened to at most where they are redundant.
+constexpr double kMostJointProximal = 1e-3;
+constexpr int kMostJointLevel = 5;
+/// Opportunities passed over after a guard, the first time.
+constexpr int kGuardPause = 8;
+constexpr int kMostGuards = 4;
+
+/// Level 0: as set. Level 1 forgets impulses; each further one is ten times softer, too.
+double SofteningOf(int level) { return level < 2 ? 1 : std::pow(10.0, level - 1); }
+
 }  // namespace
 
 StepSettings IslandMemory::Step(const Settings& settings) const {
   return {.proximal = std::clamp(settings.proximal * softening_, kLeastProximal, 1.0),
-          .proximal_joints = settings.proximal_joints,
+          .proximal_joints = std::clamp(settings.proximal_joints * SofteningOf(joint_level_),
+                                        settings.proximal_joints, kMostJointProximal),
           .factorisations = settings.k_sm,
-          .refinements = settings.refinements};
+          .refinements = settings.refinements,
+          .leak_joints = joint_level_ > 0 ? 1.0 : 0.0};
 }
 
 double IslandMemory::Cost(const PackedIsland& island, const Settings& settings,
@@ -43,8 +63,10 @@ double IslandMemory::Cost(const PackedIsland& island, const Settings& settings,
 }
 
 bool IslandMemory::Due(const Settings& settings) {
-  if (pause_ <= 0 || settings.step_policy == StepPolicy::kAlways) return true;
-  --pause_;
+  int* const pause = guard_pause_ > 0 ? &guard_pause_ : &pause_;
+  const bool always = settings.step_policy == StepPolicy::kAlways && pause == &pause_;
+  if (*pause <= 0 || always) return true;
+  --*pause;
   return false;
 }
 
@@ -74,9 +96,30 @@ BlockSystem<double>& IslandMemory::block_system(simd::Target target) {
 }
 
 void IslandMemory::Accepted(double least) {
-  strikes_ = 0;
+  strikes_ = guards_ = 0;
   least_ *= kForgetFailures;
   softening_ = std::max({least, least_, softening_ / 2});
+}
+
+void IslandMemory::SawJoints(double speed) {
+  for (; !(speed <= kMostJointSpeed) && joint_level_ < kMostJointLevel; speed /= 10) {
+    // what was hardened too early is not tried again soon
+    if (calm_steps_ < calm_enough_ && joint_level_ == 0) {
+      calm_enough_ = std::min(kMostCalm, 2 * calm_enough_);
+    }
+    ++joint_level_;
+    calm_steps_ = 0;
+    if (!(speed < std::numeric_limits<double>::infinity())) break;
+  }
+  calm_steps_ = speed < kCalm * kMostJointSpeed ? calm_steps_ + 1 : 0;
+  if (calm_steps_ < calm_enough_ || joint_level_ == 0) return;
+  --joint_level_;
+  calm_steps_ = 0;
+}
+
+void IslandMemory::Guarded() {
+  guard_pause_ = kGuardPause << guards_;
+  guards_ = std::min(kMostGuards, guards_ + 1);
 }
 
 void IslandMemory::Restored() {

@@ -43,6 +43,12 @@ class IslandMemory {
   /// @param least  factor on Settings::proximal that successes bring it down to, > 0
   void Accepted(double least = kLeastSoftening);
   void Restored();
+  /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
+  void Guarded();
+  /// How large impulses of joints are after a step, see StepResult::joint_speed. Where they are
+  /// larger than floats can hold against each other, joints are redundant: steps forget more of
+  /// them, and soften them. Those that carry much, too, but never as much.
+  void SawJoints(double speed);
 
   /// What a factorisation and its step last cost here, for each row, in the units of the caller; 0
   /// if that is not known.
@@ -65,8 +71,11 @@ class IslandMemory {
   double softening_ = 1;  ///< factor on Settings::proximal
   double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
   double price_of_row_ = 0;
-  int strikes_ = 0;  ///< rejections in a row
-  int pause_ = 0;    ///< opportunities still to be passed over
+  int strikes_ = 0;                   ///< rejections in a row
+  int pause_ = 0;                     ///< opportunities still to be passed over
+  int guards_ = 0, guard_pause_ = 0;  ///< how often of late, and likewise after one
+  /// How much joints are softened, steps in a row without need for it, and how many it takes.
+  int joint_level_ = 0, calm_steps_ = 0, calm_enough_ = 60;
 };
 
 }  // namespace cairn

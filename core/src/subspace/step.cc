@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "subspace/step.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace cairn {
@@ -82,18 +84,35 @@ void RefineWhileSetHolds(const PackedIsland& island, const StepSettings& setting
   }
 }
 
+void LeakJoints(const PackedIsland& island, const StepSettings& settings, IslandState* state) {
+  for (size_t i = 0; i < island.rows.size(); ++i) {
+    if (!HasBounds(island.rows[i])) state->x[i] *= 1 - settings.leak_joints;
+  }
+}
+
+double JointSpeed(const PackedIsland& island, const IslandState& state) {
+  double speed = 0;
+  for (size_t i = 0; i < island.rows.size(); ++i) {
+    const PackedRow& row = island.rows[i];
+    if (!HasBounds(row)) speed = std::max(speed, row.diagonal * std::abs(state.x[i]));
+  }
+  return speed;
+}
+
 }  // namespace
 
 StepResult TakeStep(const PackedIsland& island, const StepSettings& settings, BodySystem* system,
                     IslandState* state) {
   StepResult result;
-  const IslandState start = *state;
+  const IslandState before = *state;
   ActiveSet set = PredictActiveSet(island, *state);
+  LeakJoints(island, settings, state);
+  const IslandState start = *state;
   for (int pass = 0; pass < settings.factorisations; ++pass) {
     const std::vector<double> weights = Weights(island, set, settings);
     ++result.factorisations;
     if (!system->Factorise(island, weights)) {
-      *state = start;
+      *state = before;
       return result;
     }
     state->x = start.x;
@@ -108,6 +127,7 @@ StepResult TakeStep(const PackedIsland& island, const StepSettings& settings, Bo
     state->x[i] = Clamp(state->x[i], BoundsOf(island.rows[i], state->x));
   }
   RecomputeVelocities(island, state);
+  result.joint_speed = JointSpeed(island, *state);
   result.solved = true;
   return result;
 }

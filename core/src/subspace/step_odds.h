@@ -20,6 +20,11 @@ class StepOdds {
   void LearnSweeps(double power);
   /// A step and the sweeps that smooth it did. @p steps: before it in the frame
   void LearnStep(int steps, double share);
+  /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
+  /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
+  void LearnGains(double with_step, double alone) { carries_ = with_step > kCarries * alone; }
+  /// The last time that both were tried, sweeps came nowhere near: one step is worth its price.
+  bool carries() const { return carries_; }
   /// What the first step of a frame is thought to do before one was measured.
   void Expect(double cut);
   /// Where no step was taken, what is known of them fades into what was expected.
@@ -44,6 +49,9 @@ class StepOdds {
   /// tried.
   static constexpr double kExpectedPower = 2;
 
+  static constexpr double kCarries = 2;
+
+  bool carries_ = false;
   double power_ = kExpectedPower;
   bool power_known_ = false;
   int age_ = 0;  ///< frames since the power was measured
