@@ -96,8 +96,8 @@ Body ToBody(const btRigidBody& rigid) {
   return body;
 }
 
-void BodyTable::Begin(std::span<btCollisionObject* const> objects,
-                      const btContactSolverInfo& info) {
+void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
+                      GeometricStiffness* stiffness) {
   ++substep_;
   time_step_ = info.m_timeStep;
   strangers_.clear();
@@ -114,6 +114,19 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects,
     terms.Add(*rigids_[party.number], party.number);
   }
   terms.End();
+  if (stiffness != nullptr) Stiffen(stiffness);
+}
+
+void BodyTable::Stiffen(GeometricStiffness* stiffness) {
+  for (const GeometricStiffness::Raised& raised : stiffness->RaiseInertia(time_step_, bodies_)) {
+    Motion& motion = motions_[raised.body];
+    const Eigen::Vector3d torque_spin =
+        ToEigen(rigids_[raised.body]->getTotalTorque() *
+                rigids_[raised.body]->getInvInertiaTensorWorld() * time_step_);
+    const Eigen::Vector3d change =
+        raised.response * torque_spin - torque_spin - raised.damping * ToEigen(motion.spin);
+    for (int k = 0; k < 3; ++k) motion.external_spin[k] += static_cast<btScalar>(change[k]);
+  }
 }
 
 const Party& BodyTable::Enter(const btCollisionObject& object) {

@@ -11,6 +11,7 @@
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
 #include "cairn/prefetch.h"
+#include "cairn/stiffness.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -47,7 +48,9 @@ class BodyTable {
  public:
   /// Begins a substep with the bodies that Bullet lists; entries that are no rigid bodies are
   /// passed over.
-  void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
+  /// @param stiffness  what tension asks for is done to them; nullptr: nothing
+  void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
+             GeometricStiffness* stiffness);
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
   /// first asked for. The reference is good until another object is asked for.
@@ -79,6 +82,7 @@ class BodyTable {
     Party party;
   };
 
+  void Stiffen(GeometricStiffness* stiffness);
   /// One that has no slot yet, or none of its own.
   const Party& Enter(const btCollisionObject& object);
   /// Fills it where it stays: a copy would wait for what was just written.

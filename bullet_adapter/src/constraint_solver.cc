@@ -220,6 +220,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   const Clock::time_point solved = Clock::now();
   if (impl_->solved_fast) {
     const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kWrite});
+    if (impl_->options.geometric_stiffness) fast.Learn(info, impl_->report);
     fast.Write(info);
     impl_->write_time = Clock::now() - solved;
     impl_->finish_time = {};

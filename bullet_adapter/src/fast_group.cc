@@ -35,7 +35,8 @@ void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) 
 void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
                      const Options& options) {
   pushes_.Clear();
-  bodies_.Begin(group.bodies, info);
+  bodies_.Begin(group.bodies, info, options.geometric_stiffness ? &stiffness_ : nullptr);
+  if (!options.geometric_stiffness) stiffness_.Reset();
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
@@ -96,6 +97,10 @@ ContactProblem FastGroup::problem() const {
           .joint_rows = group_.joint_rows};
 }
 
+void FastGroup::Learn(const btContactSolverInfo& info, const Report& report) {
+  stiffness_.Learn(info.m_timeStep, problem(), impulses(), report);
+}
+
 void FastGroup::Write(const btContactSolverInfo& info) {
   pushes_.Solve(info, bodies_.size());
   WriteContacts(group_, info);
@@ -110,6 +115,7 @@ void FastGroup::Write(const btContactSolverInfo& info) {
 void FastGroup::Forget() {
   joint_memory_.Forget();
   twist_memory_.Forget();
+  stiffness_.Reset();
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

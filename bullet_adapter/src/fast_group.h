@@ -39,6 +39,8 @@ class FastGroup {
   /// directions of friction of the points, and what joints prepare.
   void Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
             const Options& options);
+  /// Remembers what joints pull with, as solved. @pre Read()
+  void Learn(const btContactSolverInfo& info, const Report& report);
 
   ContactProblem problem() const;
   Impulses impulses() {
@@ -69,6 +71,7 @@ class FastGroup {
   void FindMotions();
 
   BodyTable bodies_;
+  GeometricStiffness stiffness_;
   GroupProblem group_;
   ContactPoints contacts_;
   std::vector<ContactMotion> motions_;  ///< one per body, if joints or contacts want them
