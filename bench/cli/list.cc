@@ -17,7 +17,7 @@ void ListScenes(ListForm form) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const bench::SceneInfo& scene : bench::Scenes()) {
     if (form == ListForm::kText) {
-      fmt::print("{:<10} {}; size {} ({} to {} {})\n", scene.name, scene.description,
+      fmt::print("{:<14} {}; size {} ({} to {} {})\n", scene.name, scene.description,
                  scene.default_size, scene.min_size, scene.max_size, scene.size_means);
     }
     json.push_back({{"name", scene.name},

@@ -17,6 +17,7 @@
 #include "cli/record_command.h"
 #include "cli/run_command.h"
 #include "cli/solve_command.h"
+#include "cli/worlds_command.h"
 
 namespace cairn::cli {
 namespace {
@@ -96,9 +97,9 @@ int Main(Arguments arguments) {
       "--float64, or --precision float64, with any command: with Bullet in double precision.\n"
       "'cairn COMMAND --help' says more. First tries: cairn run tower --budget 2ms,\n"
       "cairn solve journal-bearing");
-  const Command commands[] = {AddDoctor(&app),        AddList(&app),
-                              AddRunCommand(&app),    AddCompareCommand(&app),
-                              AddRecordCommand(&app), AddSolveCommand(&app)};
+  const Command commands[] = {
+      AddDoctor(&app),        AddList(&app),         AddRunCommand(&app),   AddCompareCommand(&app),
+      AddRecordCommand(&app), AddSolveCommand(&app), AddWorldsCommand(&app)};
   Arguments names;
   for (const Command& command : commands) {
     command.app->allow_extras();

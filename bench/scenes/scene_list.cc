@@ -14,6 +14,7 @@
   SCENE(Tower)                    \
   SCENE(HeavyTop)                 \
   SCENE(Bridge)                   \
+  SCENE(TwoPinBridge)             \
   SCENE(Chain)                    \
   SCENE(Ragdolls)                 \
   SCENE(Rubble)                   \

@@ -33,6 +33,11 @@ void World::Step(int parts) {
   for (int i = 0; i < parts; ++i) dynamics_->stepSimulation(time_step_ / btScalar(parts), 0);
 }
 
+void World::LetSleep() {
+  may_sleep_ = true;
+  for (btRigidBody* body : dynamic_bodies_) body->forceActivationState(ACTIVE_TAG);
+}
+
 template <class MakeShape>
 btCollisionShape* World::Share(ShapeKey key, MakeShape make) {
   std::unique_ptr<btCollisionShape>& shape = shapes_[std::move(key)];
@@ -48,11 +53,12 @@ btRigidBody* World::Add(btCollisionShape* shape, const Placing& placing) {
   info.m_friction = placing.surface.friction;
   info.m_rollingFriction = placing.surface.rolling_friction;
   info.m_spinningFriction = placing.surface.spinning_friction;
+  info.m_restitution = placing.surface.restitution;
 
   bodies_.push_back(std::make_unique<btRigidBody>(info));
   btRigidBody* const body = bodies_.back().get();
   if (placing.mass > 0) {
-    body->setActivationState(DISABLE_DEACTIVATION);
+    if (!may_sleep_) body->setActivationState(DISABLE_DEACTIVATION);
     dynamic_bodies_.push_back(body);
   }
   dynamics_->addRigidBody(body);
@@ -112,6 +118,19 @@ void World::AddPit(btScalar half_side, btScalar wall_height) {
     AddBox(across_x, {.pose = At(side * middle, y, 0)});
     AddBox(across_z, {.pose = At(0, y, side * middle)});
   }
+}
+
+void World::Remove(btTypedConstraint* joint) {
+  if (std::erase(joint_pointers_, joint) != 0) dynamics_->removeConstraint(joint);
+}
+
+void World::Remove(btRigidBody* body) {
+  const std::vector<btTypedConstraint*> joints = joint_pointers_;
+  for (btTypedConstraint* joint : joints) {
+    if (&joint->getRigidBodyA() == body || &joint->getRigidBodyB() == body) Remove(joint);
+  }
+  dynamics_->removeRigidBody(body);
+  std::erase(dynamic_bodies_, body);
 }
 
 void World::Adopt(std::function<void()> release) {

@@ -17,15 +17,16 @@ struct Surface {
   btScalar friction = btScalar(0.5);
   btScalar rolling_friction = 0;   ///< More than 0 adds rows that resist rolling.
   btScalar spinning_friction = 0;  ///< Only counts together with rolling friction.
+  btScalar restitution = 0;        ///< Multiplied likewise.
 };
 
 /// Whether two bodies that a joint connects also touch each other.
 enum class ConnectedBodies { kCollide, kPassThrough };
 
 /// A Bullet world that owns all of its parts but the solver. Units are m, kg, s; y points up and
-/// gravity is -9.81 m/s^2; nothing bounces.
+/// gravity is -9.81 m/s^2; nothing bounces unless its surface says so.
 ///
-/// Bodies never sleep: a scene that has come to rest is what a solver is measured on, and Bullet
+/// Bodies never sleep unless LetSleep() says so: a scene that has come to rest is what a solver is measured on, and Bullet
 /// does not solve what sleeps. Two friction directions per contact, otherwise Bullet's default
 /// settings; they may be changed in solver_info().
 ///
@@ -47,6 +48,10 @@ class World {
 
   /// Advances by exactly one time step, in so many equal parts.
   void Step(int parts = 1);
+  /// Of the steps from now on, > 0 [s].
+  void SetTimeStep(btScalar time_step) { time_step_ = time_step; }
+  /// Bodies, those that are there and those that come, may fall asleep as Bullet's defaults say.
+  void LetSleep();
 
   /// Half extents [m].
   btRigidBody* AddBox(const btVector3& half_extents, const Placing& placing);
@@ -65,6 +70,10 @@ class World {
   void AddPit(btScalar half_side, btScalar wall_height);
 
   btTypedConstraint* AddJoint(std::unique_ptr<btTypedConstraint> joint, ConnectedBodies connected);
+
+  /// Takes a joint, or a body with its joints, out of the world. They stay valid, and the world's.
+  void Remove(btTypedConstraint* joint);
+  void Remove(btRigidBody* body);
 
   /// Takes bodies and joints that somebody else put into bullet() among those below. They stay with
   /// their owner, who takes them out in `release`, called before the world goes.
@@ -88,6 +97,7 @@ class World {
   btRigidBody* Add(btCollisionShape* shape, const Placing& placing);
 
   btScalar time_step_;
+  bool may_sleep_ = false;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

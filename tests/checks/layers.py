@@ -18,6 +18,7 @@ MAY_INCLUDE = {
     "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
     "bench": ("bench/", "bullet_adapter/include/", "core/include/", "simd/"),
     "bench/micro": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
+    "bench/worlds": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
     "examples": ("examples/", "bullet_adapter/include/", "core/include/"),
     "tests": ("",),
 }

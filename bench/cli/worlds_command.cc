@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "cli/worlds_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "CLI/CLI.hpp"
+#include "cli/command_line.h"
+#include "cli/failure.h"
+#include "cli/names.h"
+#include "cli/worlds_output.h"
+
+namespace cairn::cli {
+namespace {
+
+/// What was typed behind the options of `cairn worlds`.
+struct WorldsWords {
+  std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
+  std::string seconds = "5", jobs;
+  bool list = false, report = false, audit = false;
+  OutputWords output;
+};
+
+constexpr long long kMostSeed = 1'000'000'000'000;
+
+std::vector<std::uint64_t> ParseSeeds(const WorldsWords& words) {
+  if (!words.seed.empty()) {
+    return {static_cast<std::uint64_t>(
+        ParseCount("--seed", words.seed, 0, kMostSeed, "the number of a world"))};
+  }
+  if (words.seeds.empty()) throw Failure(kUsage, "worlds needs --seeds FROM:TO, or --seed N");
+  const size_t colon = words.seeds.find(':');
+  if (colon == std::string::npos) {
+    throw Failure(kUsage, fmt::format("--seeds '{}' is no range: write FROM:TO, such as 0:400, "
+                                      "without TO itself",
+                                      words.seeds));
+  }
+  const auto parse = [&](const std::string& text) {
+    return ParseCount("--seeds", text, 0, kMostSeed, "FROM:TO, numbers of worlds");
+  };
+  const long long from = parse(words.seeds.substr(0, colon)),
+                  to = parse(words.seeds.substr(colon + 1));
+  if (from >= to) throw Failure(kUsage, fmt::format("--seeds {}: there are none", words.seeds));
+  std::vector<std::uint64_t> seeds;
+  for (long long seed = from; seed < to; ++seed) seeds.push_back(static_cast<std::uint64_t>(seed));
+  return seeds;
+}
+
+/// Leaves the seeds of the kinds named.
+void KeepKinds(const std::string& typed, std::vector<std::uint64_t>* seeds) {
+  if (typed.empty()) return;
+  std::vector<std::string> names;
+  for (const bench::Kind& kind : bench::Kinds()) names.emplace_back(kind.name);
+  std::vector<const bench::Kind*> kept;
+  for (const std::string& word : Split(typed, ',')) {
+    const auto exact = std::find(names.begin(), names.end(), word);
+    const size_t index = exact != names.end()
+                             ? static_cast<size_t>(exact - names.begin())
+                             : FindName("kind", word, names, "'cairn worlds --list' shows all");
+    kept.push_back(&bench::Kinds()[index]);
+  }
+  std::erase_if(*seeds, [&](std::uint64_t seed) {
+    return std::find(kept.begin(), kept.end(), &bench::KindOf(seed)) == kept.end();
+  });
+  if (seeds->empty()) throw Failure(kUsage, "none of the seeds is of that kind");
+}
+
+std::vector<bench::Variant> ParseVariants(const std::string& typed) {
+  std::vector<std::string> names;
+  for (const bench::Variant& variant : bench::CairnVariants()) names.push_back(variant.name);
+  std::vector<bench::Variant> variants;
+  for (const std::string& word : Split(typed, ',')) {
+    const auto exact = std::find(names.begin(), names.end(), word);
+    const size_t index = exact != names.end()
+                             ? static_cast<size_t>(exact - names.begin())
+                             : FindName("solver", word, names,
+                                        "solvers are " + fmt::format("{}", fmt::join(names, ", ")));
+    variants.push_back(bench::CairnVariants()[index]);
+  }
+  if (variants.empty()) throw Failure(kUsage, "--solver names no solver");
+  return variants;
+}
+
+bench::CampaignOptions Check(const WorldsWords& words) {
+  bench::CampaignOptions options;
+  options.seeds = ParseSeeds(words);
+  KeepKinds(words.kinds, &options.seeds);
+  options.variants = ParseVariants(words.solvers);
+  options.trial.seconds =
+      ParseNumber("--seconds", words.seconds, 0.01, 3600, "simulated seconds of each world");
+  options.trial.audit_every = words.audit || words.report ? 1 : 10;
+  const int cores = std::max(1u, std::thread::hardware_concurrency());
+  options.jobs =
+      words.jobs.empty()
+          ? cores
+          : static_cast<int>(ParseCount("--jobs", words.jobs, 1, 1024, "worlds run side by side"));
+  return options;
+}
+
+/// Shows how far it is, and how long it still takes.
+std::vector<bench::WorldResult> RunWithProgress(bench::CampaignOptions options, ProgressMode mode) {
+  using Clock = std::chrono::steady_clock;
+  Progress progress(mode);
+  const Clock::time_point start = Clock::now();
+  options.progress = [&, start](size_t done) {
+    const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+    const double left = spent / double(done) * double(options.seeds.size() - done);
+    progress.Show(fmt::format("worlds: {} of {}, {:.0f} s left", done, options.seeds.size(), left));
+  };
+  return bench::RunWorlds(options);
+}
+
+void ListKinds() {
+  for (const bench::Kind& kind : bench::Kinds()) {
+    fmt::print("{:<16} {}\n", kind.name, kind.description);
+  }
+}
+
+std::string DescribeWorld(const bench::WorldSeed& seed) {
+  btSequentialImpulseConstraintSolver solver;
+  return bench::RandomWorld(seed, &solver).Describe();
+}
+
+int DoWorlds(const WorldsWords& words) {
+  if (words.list) {
+    ListKinds();
+    return kFine;
+  }
+  const bench::CampaignOptions options = Check(words);
+  const std::vector<bench::WorldResult> results =
+      RunWithProgress(options, ParseProgress(words.output));
+  if (words.report) {
+    for (const bench::WorldResult& result : results) {
+      fmt::print("{}\n", WorldReport(result, DescribeWorld({result.seed}), options.variants));
+    }
+  } else {
+    fmt::print("{}\n", WorldTables(results, options.variants));
+  }
+  fmt::print("{}", FailedWorlds(results, options.variants));
+  const bool failed = std::any_of(results.begin(), results.end(),
+                                  [](const bench::WorldResult& result) { return result.failed(); });
+  return failed ? kCheckFailed : kFine;
+}
+
+}  // namespace
+
+Command AddWorldsCommand(CLI::App* app) {
+  const auto words = std::make_shared<WorldsWords>();
+  CLI::App* const worlds = app->add_subcommand(
+      "worlds", "Run random worlds with Cairn and Bullet, and say which of them go wrong");
+  const auto add = [worlds](const char* name, std::string* word, const char* help,
+                            const char* type) { AddText(worlds, name, word, help, type); };
+  add("--seeds", &words->seeds, "Worlds FROM to TO - 1", "FROM:TO");
+  add("--seed", &words->seed, "One world", "N");
+  add("--solver", &words->solvers,
+      "Of cairn, cairn-sweeps, cairn-work, cairn-always; default: all of them", "A,B,...");
+  add("--kind", &words->kinds, "Only worlds of these kinds; see --list", "K,...");
+  add("--seconds", &words->seconds, "Simulated time of each world; default 5", "S");
+  add("--jobs", &words->jobs, "Worlds run side by side; default: as many as cores", "N");
+  worlds->add_flag("--list", words->list, "Names the kinds of worlds");
+  worlds->add_flag("--report", words->report, "Shows each world in detail; best with --seed");
+  worlds->add_flag("--audit", words->audit, "Audits every substep, not every tenth");
+  AddOutputWords(worlds, &words->output);
+  return {worlds, [words](const std::string&) { return DoWorlds(*words); }};
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "worlds/oracles.h"
+
+namespace cairn::bench {
+
+/// One world with every solver.
+struct WorldResult {
+  std::uint64_t seed = 0;
+  const Kind* kind = nullptr;
+  std::vector<Trial> bullet;                   ///< In the order of Yardsticks().
+  std::vector<Trial> trials;                   ///< In the order of the variants asked for.
+  std::vector<std::vector<Finding>> findings;  ///< Of each trial.
+
+  bool failed() const;
+};
+
+struct CampaignOptions {
+  std::vector<std::uint64_t> seeds;
+  std::vector<Variant> variants;
+  TrialOptions trial;  ///< The seed is set for each world.
+  Lines lines;
+  int jobs = 1;  ///< Threads, each with worlds of its own.
+  /// Called with the number of worlds that are done, by one thread at a time.
+  std::function<void(size_t)> progress;
+};
+
+/// Runs the worlds; the results do not depend on the number of jobs.
+std::vector<WorldResult> RunWorlds(const CampaignOptions& options);
+
+/// One world. @param seed  instead of that of the options
+WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed);
+
+}  // namespace cairn::bench
