@@ -140,6 +140,9 @@ BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) co
 
 double BlockSteps::Price(int group, std::span<const int> islands, int factorisations) {
   const Precisions precisions = PrecisionsOf(islands);
+  const bool condense = std::any_of(islands.begin(), islands.end(),
+                                    [this](int i) { return MemoryOf(i)->condenses_joints(); });
+  if (condense) ++factorisations;
   const double price = (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
                        (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
   const double rows = static_cast<double>(frame_->plan().groups()[group].rows);
@@ -172,7 +175,7 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
     islands_now_[i] = {.taken = chosen(i),
                        .proximal = step.proximal,
                        .proximal_joints = step.proximal_joints,
-                       .leak_joints = step.leak_joints};
+                       .condense_joints = step.condense_joints};
   }
   const StepSettings settings = {.proximal = settings_->proximal,
                                  .proximal_joints = settings_->proximal_joints,
@@ -191,7 +194,7 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
   for (int i : islands) {
     if (chosen(i)) {
       islands_[i] = islands_now_[i];
-      MemoryOf(i)->SawJoints(islands_[i].result.joint_speed);
+      MemoryOf(i)->SawJoints(islands_[i].result);
       work_[i] = price * frame_->plan().islands()[i].rows / rows;
     }
     islands_now_[i].taken = false;

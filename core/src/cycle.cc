@@ -135,7 +135,7 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
 
   // judged after sweeps: before them, nearly every good step looks worse
   Sweeps(SweepsOfLeg(), meter);
-  memory_->SawJoints(result.joint_speed);
+  memory_->SawJoints(result);
   const bool worse = MeasureMerit(island_, at_.state).is_worse_than_none();
   const bool sound = !guards_ || !(worse || IsTooMuch(result.joint_speed));
   if (!sound) {

@@ -102,7 +102,7 @@ void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
 
 void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
                              double time_step) {
-  if (body == kWorld) return;
+  if (body == kWorld || anchored_[island_of_[body]] == 0) return;
   if (place_[body] < 0) {
     place_[body] = static_cast<int>(pulled_.size());
     pulled_.push_back(body);
@@ -111,6 +111,19 @@ void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::
   const Eigen::Vector3d force = impulse / time_step;
   sums_[place_[body]] += force.dot(arm) * Eigen::Matrix3d::Identity() -
                          0.5 * (arm * force.transpose() + force * arm.transpose());
+}
+
+void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
+  anchored_.assign(report.islands.size(), 0);
+  const auto moves = [&](int body) { return body != kWorld && problem.bodies[body].inv_mass > 0; };
+  const auto look = [&](const auto& between) {
+    if (moves(between.body_a) == moves(between.body_b)) return;
+    const int body = moves(between.body_a) ? between.body_a : between.body_b;
+    if (report.island_of[body] >= 0) anchored_[report.island_of[body]] = 1;
+  };
+  for (const Joint& joint : problem.joints) look(joint);
+  for (const Row& row : problem.rows) look(row);
+  for (const Manifold& manifold : problem.manifolds) look(manifold);
 }
 
 void GeometricStiffness::AddJoints(double time_step, const ContactProblem& problem,
@@ -185,6 +198,8 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
     const int island = report.island_of[i];
     stepped_[i] = island >= 0 && report.islands[island].steps_accepted > 0 ? 1 : 0;
   }
+  island_of_ = report.island_of;
+  FindAnchored(problem, report);
   pulled_.clear();
   sums_.clear();
   place_.assign(bodies, -1);

@@ -133,6 +133,19 @@ TEST(Stiffness, DampsTheSpinOfRaisedAxesALittle) {
   EXPECT_NEAR(scene.bodies[0].velocity.angular.z(), 1, 1e-6);
 }
 
+// Nothing outside takes up what raised inertia keeps of an impulse.
+TEST(Stiffness, LeavesIslandsAloneThatNothingHolds) {
+  Scene scene = test::HangingChain(3, 1000);
+  scene.rows.erase(scene.rows.begin(), scene.rows.begin() + 3);  // the pin to the world
+  for (Body& body : scene.bodies) body.impulse.setZero();
+  scene.bodies[0].impulse.z() = 1000;  // and yet it is under tension
+  GeometricStiffness stiffness;
+  const Solution s = SolveAndLearn(scene, &stiffness);
+  EXPECT_GT(std::abs(s.x[2]), 100);
+  std::vector<Body> bodies = scene.bodies;
+  EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies).empty());
+}
+
 TEST(Stiffness, LearnsNothingFromWhatWasRefused) {
   Scene scene = test::HangingChain(3, 100);
   GeometricStiffness stiffness;

@@ -44,7 +44,9 @@ class GeometricStiffness {
   void Apply(double time_step, std::span<Body> bodies);
   /// Remembers what joints of a solved problem pull with: those of three rows without bounds along
   /// directions at right angles to each other. What sweeps alone leave on an island is not yet its
-  /// tension, so there it is averaged over some steps. Does nothing if the report is not ok().
+  /// tension, so there it is averaged over some steps. Islands that touch nothing but themselves
+  /// are left alone: raised inertia would take from their angular momentum. Does nothing if the
+  /// report is not ok().
   void Learn(double time_step, const ContactProblem& problem, const Impulses& impulses,
              const Report& report);
   /// Forgets all tension.
@@ -60,6 +62,7 @@ class GeometricStiffness {
     bool seen = false;
   };
 
+  void FindAnchored(const ContactProblem& problem, const Report& report);
   void Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse, double time_step);
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
@@ -68,6 +71,8 @@ class GeometricStiffness {
   std::unordered_map<std::uint64_t, Memory> memories_;
   std::vector<Raised> raised_;
   std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
+  std::vector<char> anchored_;         ///< by island: something of it touches what does not move
+  std::span<const int> island_of_;     ///< of the report that is learnt from
   std::vector<int> pulled_;            ///< bodies with an entry in sums_
   std::vector<int> place_;             ///< by body: in pulled_, -1 for none
   std::vector<Eigen::Matrix3d> sums_;  ///< K of pulled_

@@ -197,11 +197,33 @@ std::uint32_t BlockLaw<T>::RemoveViolated() const {
 }
 
 template <class T>
-void BlockLaw<T>::Leak() const {
+void BlockLaw<T>::FindJointWeights() const {
   ForRows(block, lines, [&](int i, const RowView& row) {
-    if (row.shape.bound != RowBound::kFree) return;
-    for (int l = 0; l < kLanes; ++l) x[i].lane[l] *= lanes.kept_joints.lane[l];
+    const bool condensed = row.shape.bound == RowBound::kFree && !row.shape.soft;
+    for (int l = 0; l < kLanes; ++l) {
+      const T eps = lanes.proximal_joints.lane[l];
+      const T weight = lanes.taken.lane[l] / (eps / row.InverseDiagonal<T>(l));
+      weights[i].lane[l] = condensed && lanes.taken.lane[l] != 0 ? weight : T{0};
+    }
   });
+}
+
+template <class T>
+void BlockLaw<T>::CopyWeighted(LineOf<T>* joints) const {
+  for (int i = 0; i < block.row_count; ++i) {
+    for (int l = 0; l < kLanes; ++l) {
+      joints[i].lane[l] = weights[i].lane[l] != 0 ? x[i].lane[l] : T{0};
+    }
+  }
+}
+
+template <class T>
+void BlockLaw<T>::ClearWeighted() const {
+  for (int i = 0; i < block.row_count; ++i) {
+    for (int l = 0; l < kLanes; ++l) {
+      x[i].lane[l] = weights[i].lane[l] != 0 ? T{0} : x[i].lane[l];
+    }
+  }
 }
 
 template <class T>

@@ -21,7 +21,6 @@ struct LaneSettings {
   simd::LineOf<T> tolerance;        ///< how close to a bound counts as at the bound [N s]
   simd::LineOf<T> taken;            ///< 1 where the island of the lane is worked on now, else 0
   simd::LineOf<T> proximal_joints;  ///< eps of rows without bounds
-  simd::LineOf<T> kept_joints;      ///< what stays of their impulses; see StepSettings::leak_joints
 };
 
 /// One block in a step: its laws as kernels have them, and the step's own numbers, one line a row.
@@ -48,9 +47,13 @@ struct BlockLaw {
   /// Free rows whose impulse left its bounds stay at the bound they crossed, from now on. One bit
   /// for each lane that had one.
   std::uint32_t RemoveViolated() const;
-  /// Rows without bounds keep their share of x. @pre every lane that is worked on is `taken`
-  void Leak() const;
-  /// d |x| of them, the largest of each lane.
+  /// Weights of the joints alone that have no compliance, in lanes that are worked on.
+  void FindJointWeights() const;
+  /// joints := x of rows that have a weight, 0 elsewhere.
+  void CopyWeighted(simd::LineOf<T>* joints) const;
+  /// x := 0 where there is a weight.
+  void ClearWeighted() const;
+  /// d |x| of rows without bounds, the largest of each lane.
   simd::LineOf<T> FindJointSpeeds() const;
   /// x inside its bounds.
   void Project() const;

@@ -38,8 +38,6 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
   islands_ = islands;
   Read();
   Predict();
-  if (leaks_) ForBlocks([](const BlockLaw<T>& law) { law.Leak(); });
-  if (bounded_) start_ = x_;
 
   // those from whose sets rows had to be removed, again; others are done when they are refined
   int made = 0;
@@ -60,7 +58,8 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
     RefineWhileSetHolds(settings.refinements);
   }
   if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Project(); });
-  FindJointSpeeds();
+  FindJointSpeeds(&StepResult::solved_joint_speed);
+  if (CondenseJoints(crew)) ++made;
   Write();
   return made;
 }
@@ -78,6 +77,7 @@ void BlockStep<T>::Predict() {
     std::fill(sides_.begin(), sides_.end(), SideLine{});
     return;
   }
+  start_ = x_;
   ReadVelocities();
   FindSlack();
   ForBlocks([](const BlockLaw<T>& law) { law.Predict(); });
@@ -162,6 +162,7 @@ void BlockStep<T>::Read() {
   sides_.resize(lines);
   u_.resize(6 * static_cast<size_t>(system_->nodes()));
   du_.resize(u_.size());
+  wanted_.resize(u_.size());
   for (size_t i = 0; i < lines; ++i) {
     const simd::Line& x = blocks_->x[static_cast<size_t>(group_->first_x) + i];
     for (int l = 0; l < kLanes; ++l) x_[i].lane[l] = static_cast<T>(x.lane[l]);
@@ -174,7 +175,6 @@ void BlockStep<T>::Read() {
 
   FindTolerances();
   lanes_.resize(group_->blocks);
-  leaks_ = false;
   for (int b = 0; b < group_->blocks; ++b) {
     LaneSettings<T>& lanes = lanes_[b];
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
@@ -184,9 +184,6 @@ void BlockStep<T>::Read() {
       lanes.taken.lane[l] = 0;
       lanes.proximal.lane[l] = taken ? static_cast<T>(islands_[island].proximal) : 1;
       lanes.proximal_joints.lane[l] = taken ? static_cast<T>(islands_[island].proximal_joints) : 1;
-      const double leak = taken ? islands_[island].leak_joints : 0;
-      lanes.kept_joints.lane[l] = static_cast<T>(1 - leak);
-      leaks_ = leaks_ || leak > 0;
       lanes.tolerance.lane[l] =
           taken ? static_cast<T>(kActiveTolerance * sums_[island] / counts_[island]) : 0;
     }
@@ -317,12 +314,76 @@ void BlockStep<T>::Remove() {
 }
 
 template <class T>
-void BlockStep<T>::FindJointSpeeds() {
+void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
+  ForBlocks(
+      [this](const BlockLaw<T>& law) { law.CopyWeighted(product_.data() + (law.x - x_.data())); });
+  MultiplyTransposed(product_, out);
+}
+
+/// Solves  (G_J G_J' + eps D) dx_J = G_J (v - G_J' x_J)  some times, from x_J = 0. Its right-hand
+/// side lies in the range of G_J, so that nothing comes of what joints contradict each other.
+template <class T>
+void BlockStep<T>::FindSmallest() {
+  MultiplyWeighted(&wanted_);
+  ForBlocks([](const BlockLaw<T>& law) { law.ClearWeighted(); });
+  for (int k = 0; k < kCondensingSolves; ++k) {
+    MultiplyWeighted(&u_);
+    for (size_t i = 0; i < u_.size(); ++i) u_[i] = wanted_[i] - u_[i];
+    Multiply(u_, &slack_);
+    for (size_t i = 0; i < x_.size(); ++i) {
+      for (int l = 0; l < kLanes; ++l) {
+        product_[i].lane[l] =
+            weights_[i].lane[l] != 0 ? weights_[i].lane[l] * slack_[i].lane[l] : T{0};
+      }
+    }
+    MultiplyTransposed(product_, &du_);
+    system_->Solve(du_);
+    Multiply(du_, &product_);
+    for (size_t i = 0; i < x_.size(); ++i) {
+      for (int l = 0; l < kLanes; ++l) {
+        if (weights_[i].lane[l] == 0) continue;
+        x_[i].lane[l] += weights_[i].lane[l] * (slack_[i].lane[l] - product_[i].lane[l]);
+      }
+    }
+  }
+}
+
+template <class T>
+bool BlockStep<T>::CondenseJoints(Crew* crew) {
+  bool any = false;
+  ForIslands([&](int island) {
+    const bool wanted = islands_[island].condense_joints && islands_[island].result.solved;
+    phases_[island] = wanted ? kOpen : kDone;
+    any = any || wanted;
+  });
+  if (any) {
+    WorkOn(kOpen);
+    ForBlocks([](const BlockLaw<T>& law) { law.FindJointWeights(); });
+    before_ = x_;
+    if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew)) FindSmallest();
+  }
+  FindJointSpeeds(&StepResult::joint_speed);
+  if (!any) return false;
+  ForIslands([&](int island) {
+    StepResult& result = islands_[island].result;
+    if (phases_[island] != kOpen || result.joint_speed <= kCondensed * result.solved_joint_speed) {
+      return;
+    }
+    phases_[island] = kTakenBack;
+    result.joint_speed = result.solved_joint_speed;
+  });
+  WorkOn(kTakenBack);
+  CopyTaken(before_, &x_);
+  return true;
+}
+
+template <class T>
+void BlockStep<T>::FindJointSpeeds(double StepResult::*of) {
   for (int b = 0; b < group_->blocks; ++b) {
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
     const LineT speeds = LawOf(b).FindJointSpeeds();
     for (int l = 0; l < block.lanes; ++l) {
-      double& speed = islands_[plan_->island_of(group_->first_block + b, l)].result.joint_speed;
+      double& speed = islands_[plan_->island_of(group_->first_block + b, l)].result.*of;
       speed = std::max(speed, static_cast<double>(speeds.lane[l]));
     }
   }

@@ -15,9 +15,10 @@ namespace cairn {
 
 /// What an island brings to a step, and what becomes of it; by island of the plan.
 struct IslandStep {
-  bool taken = false;  ///< the island takes it; for others nothing changes
-  double proximal = 0, proximal_joints = 0, leak_joints = 0;  ///< see StepSettings
-  StepResult result = {};                                     ///< out
+  bool taken = false;                        ///< the island takes it; for others nothing changes
+  double proximal = 0, proximal_joints = 0;  ///< see StepSettings
+  bool condense_joints = false;              ///< likewise
+  StepResult result = {};                    ///< out
 };
 
 /// TakeStep() for islands of a group that is in blocks, each as if it were alone, on numbers of its
@@ -27,7 +28,7 @@ class BlockStep {
  public:
   explicit BlockStep(simd::Target target) : products_(simd::PairProductsFor<T>(target)) {}
 
-  /// @p islands: one for each of the plan. Of the settings, proximal terms and the leak are not
+  /// @p islands: one for each of the plan. Of the settings, those of IslandStep are not
   /// used. An island whose system could not be factorised stays as it is. Returns how many
   /// factorisations were made in all.
   /// @pre system->IsPreparedFor() this group
@@ -46,7 +47,13 @@ class BlockStep {
   void Refine();
   void RefineWhileSetHolds(int refinements);
   void Remove();
-  void FindJointSpeeds();
+  /// Brings joints of islands that ask for it to their smallest impulses. Whether there were any.
+  bool CondenseJoints(Crew* crew);
+  /// Those of rows that have a weight, as they move bodies now.
+  void FindSmallest();
+  /// out := G_J' x_J of rows that have a weight
+  void MultiplyWeighted(std::vector<T>* out);
+  void FindJointSpeeds(double StepResult::*speed);
   void Write();
   /// function(island) for those of the group
   template <class Function>
@@ -74,13 +81,12 @@ class BlockStep {
   BlockSystem<T>* system_ = nullptr;
   std::span<IslandStep> islands_;
   bool bounded_ = false;                      ///< some row of the group has bounds
-  bool leaks_ = false;                        ///< some island forgets impulses of joints
   std::vector<char> phases_, phases_before_;  ///< by island
 
   std::vector<LaneSettings<T>> lanes_;  ///< by block
   std::vector<LineT> x_, start_, before_, slack_, weights_, product_;
   std::vector<SideLine> sides_, sides_before_;
-  std::vector<T> u_, du_;  ///< six numbers a node
+  std::vector<T> u_, du_, wanted_;  ///< six numbers a node
   std::vector<double> sums_, counts_;
 };
 

@@ -27,20 +27,23 @@ constexpr double kLeastProximal = 1e-8;
 /// By which what a failure taught fades with each success: some 35 of them halve it.
 constexpr double kForgetFailures = 0.98;
 
-/// Of impulses of joints, see StepResult::joint_speed [m/s]: what is more rounds by more than
-/// 0.6 mm/s in floats. A chain that carries 10,000 times a link comes to 3,000.
-constexpr double kMostJointSpeed = 1e4;
-/// Where this share of it is reached for long, joints are made harder again.
-constexpr double kCalm = 0.03;
-constexpr int kMostCalm = 3840;
+/// Impulses of joints, see StepResult::joint_speed [m/s], from which on they may be redundant: a
+/// chain that carries 1,000 times a link comes to 300, and is asked in vain.
+constexpr double kMostJointSpeed = 100;
+/// Beyond this floats round by more than 0.6 mm/s, and joints are softened.
+constexpr double kTooMuch = 1e4;
+/// Where impulses stay below this share of the former for some steps, joints agree.
+constexpr double kCalm = 0.1;
+/// Steps after which it is asked again whether joints are redundant.
+constexpr int kLeastPause = 60, kMostPause = 3840;
 /// What joints are softened to at most where they are redundant.
 constexpr double kMostJointProximal = 1e-3;
-constexpr int kMostJointLevel = 5;
+constexpr int kMostJointLevel = 4;
 /// Opportunities passed over after a guard, the first time.
 constexpr int kGuardPause = 8;
 constexpr int kMostGuards = 4;
 
-/// Level 0: as set. Level 1 forgets impulses; each further one is ten times softer, too.
+/// Level 0: as set. Level 1 condenses impulses; each further one is ten times softer, too.
 double SofteningOf(int level) { return level < 2 ? 1 : std::pow(10.0, level - 1); }
 
 }  // namespace
@@ -51,7 +54,7 @@ StepSettings IslandMemory::Step(const Settings& settings) const {
                                         settings.proximal_joints, kMostJointProximal),
           .factorisations = settings.k_sm,
           .refinements = settings.refinements,
-          .leak_joints = joint_level_ > 0 ? 1.0 : 0.0};
+          .condense_joints = condenses_joints()};
 }
 
 double IslandMemory::Cost(const PackedIsland& island, const Settings& settings,
@@ -77,7 +80,7 @@ bool IslandMemory::StepPays(const PackedIsland& island, const Settings& settings
   const double rows = static_cast<double>(island.rows.size());
   if (!budget.meter->Fits((kPrepareRow + kAnalyseRow) * rows, budget.sweep_units)) return false;
   system_.Prepare(island);
-  const double cost = Cost(island, settings, settings.k_sm);
+  const double cost = Cost(island, settings, settings.k_sm + (condenses_joints() ? 1 : 0));
   const bool too_dear = cost > kMostSweeps * rows && settings.step_policy != StepPolicy::kAlways;
   if (!too_dear && budget.meter->Fits(cost, budget.sweep_units)) return true;
   Postpone();
@@ -101,20 +104,26 @@ void IslandMemory::Accepted(double least) {
   softening_ = std::max({least, least_, softening_ / 2});
 }
 
-void IslandMemory::SawJoints(double speed) {
-  for (; !(speed <= kMostJointSpeed) && joint_level_ < kMostJointLevel; speed /= 10) {
-    // what was hardened too early is not tried again soon
-    if (calm_steps_ < calm_enough_ && joint_level_ == 0) {
-      calm_enough_ = std::min(kMostCalm, 2 * calm_enough_);
-    }
-    ++joint_level_;
-    calm_steps_ = 0;
-    if (!(speed < std::numeric_limits<double>::infinity())) break;
+void IslandMemory::SawJoints(const StepResult& result) {
+  if (joint_level_ == 0) {
+    if (joint_pause_ > 0) --joint_pause_;
+    if (joint_pause_ == 0 && !(result.solved_joint_speed <= kMostJointSpeed)) joint_level_ = 1;
+    return;
   }
-  calm_steps_ = speed < kCalm * kMostJointSpeed ? calm_steps_ + 1 : 0;
-  if (calm_steps_ < calm_enough_ || joint_level_ == 0) return;
-  --joint_level_;
-  calm_steps_ = 0;
+  const bool redundant = result.joint_speed <= kCondensed * result.solved_joint_speed;
+  const bool small = result.solved_joint_speed <= kCalm * kMostJointSpeed;
+  calm_steps_ = small ? calm_steps_ + 1 : 0;
+  if (!(result.joint_speed <= kTooMuch)) {
+    joint_level_ = std::min(kMostJointLevel, joint_level_ + 1);
+  } else if (joint_level_ > 1 && calm_steps_ > kLeastPause) {
+    --joint_level_;
+    calm_steps_ = 0;
+  } else if ((!redundant && !small) || calm_steps_ > kLeastPause) {
+    // these joints carry much, or agree by now: asked again later, and ever later
+    joint_level_ = calm_steps_ = 0;
+    joint_pause_ = joint_pause_next_;
+    joint_pause_next_ = std::min(kMostPause, 2 * joint_pause_next_);
+  }
 }
 
 void IslandMemory::Guarded() {

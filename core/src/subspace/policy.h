@@ -45,10 +45,11 @@ class IslandMemory {
   void Restored();
   /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
   void Guarded();
-  /// How large impulses of joints are after a step, see StepResult::joint_speed. Where they are
-  /// larger than floats can hold against each other, joints are redundant: steps forget more of
-  /// them, and soften them. Those that carry much, too, but never as much.
-  void SawJoints(double speed);
+  /// How large impulses of joints were in a step. Where they are larger than floats can hold
+  /// against each other, joints are redundant, and are condensed from then on; where that is not
+  /// enough, softened, too.
+  void SawJoints(const StepResult& result);
+  bool condenses_joints() const { return joint_level_ > 0; }
 
   /// What a factorisation and its step last cost here, for each row, in the units of the caller; 0
   /// if that is not known.
@@ -74,8 +75,9 @@ class IslandMemory {
   int strikes_ = 0;                   ///< rejections in a row
   int pause_ = 0;                     ///< opportunities still to be passed over
   int guards_ = 0, guard_pause_ = 0;  ///< how often of late, and likewise after one
-  /// How much joints are softened, steps in a row without need for it, and how many it takes.
-  int joint_level_ = 0, calm_steps_ = 0, calm_enough_ = 60;
+  /// How much is done about redundant joints, steps in a row without need for it, and steps until
+  /// they are looked at again.
+  int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = 60;
 };
 
 }  // namespace cairn

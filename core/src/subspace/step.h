@@ -11,23 +11,31 @@ struct StepSettings {
   double proximal_joints;  ///< Settings::proximal_joints
   int factorisations;      ///< at most, >= 1
   int refinements;         ///< solves with each factor, >= 1
-  /// Of the impulses of rows without bounds, the share in [0, 1] that the proximal term draws to 0
-  /// instead of to where they are. Redundant joints contradict each other, and each step adds what
-  /// that takes divided by proximal_joints: what is not drawn back piles up from frame to frame.
-  double leak_joints = 0;
+  /// Whether impulses of joints become the smallest ones that move bodies as they do. Redundant
+  /// joints contradict each other, and each step answers that with impulses of the contradiction
+  /// divided by proximal_joints that cancel each other, and pile up from frame to frame. It takes
+  /// one more factorisation.
+  bool condense_joints = false;
 };
 
 struct StepResult {
   bool solved = false;  ///< false: a system could not be factorised, and the state is as it was
   int factorisations = 0;
-  /// Largest d |x| of rows without bounds after the step [m/s] or [rad/s]: what an impulse would
-  /// change its own row by, and so what floats round at 6e-8 of.
-  double joint_speed = 0;
+  /// Largest d |x| of rows without bounds before they are condensed, and after the step [m/s] or
+  /// [rad/s]: what an impulse would change its own row by, and so what floats round at 6e-8 of.
+  double solved_joint_speed = 0, joint_speed = 0;
 };
 
 /// One subspace minimisation of [1] (contact_problem.h), from a state that sweeps have smoothed:
 /// solve for the rows predicted free, fix those that left their bounds, solve again, project.
 /// @pre system->Prepare(island)
+/// Solves with its factor that condensing joints takes: each leaves eps / (eps + l) of the velocity
+/// along a mode with eigenvalue l unanswered.
+inline constexpr int kCondensingSolves = 3;
+/// Where condensed impulses of joints are still more than this share of what they were, joints are
+/// not redundant but carry much: they are left as they were.
+inline constexpr double kCondensed = 0.5;
+
 StepResult TakeStep(const PackedIsland& island, const StepSettings& settings, BodySystem* system,
                     IslandState* state);
 
