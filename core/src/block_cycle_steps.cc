@@ -75,16 +75,16 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
   // after the step its sweeps, and, where that is not foreseen, as many without it
   const int left = settings_->max_sweeps - SweepsMade();
   const double sweeps =
-      (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
+      (watches_ ? 1.0 : 2.0) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
   const double rows = static_cast<double>(frame_->plan().groups()[g].rows);
   const PlannedSteps before{planned->steps, planned->sweeps + sweeps * rows};
   if (const NoStep refused = PlanGraph(g, islands, before); refused != NoStep::kEnded) {
     return refused;
   }
-  // as many factorisations as fit
+  // as many factorisations as fit, and half of them where they do not
   const bool always = settings_->step_policy == StepPolicy::kAlways;
   NoStep refused = NoStep::kTooDear;
-  for (int most = settings_->k_sm; most > 0; --most) {
+  for (int most = settings_->k_sm; most > 0; most /= 2) {
     const double price = steps_.Price(g, islands, most);
     if (!always && price > kMostSweeps * rows) continue;
     if (!meter_->Fits(before.steps + price, before.sweeps)) continue;
@@ -239,8 +239,10 @@ void BlockCycle::TryWithoutSteps(int sweeps) {
   MeasureChosen(&alone_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Chosen(i)) continue;
-    states_[i].better_alone = states_[i].stepped && with_step_[i].energy > alone_[i].energy &&
-                              with_step_[i].energy > SureGain() * before_[i].energy;
+    const double with_step = with_step_[i].energy;
+    // what is not a number is not kept
+    states_[i].better_alone = states_[i].stepped && !(with_step <= alone_[i].energy) &&
+                              !(with_step <= SureGain() * before_[i].energy);
     if (states_[i].better_alone) continue;
     states_[i].seen = states_[i].seen_with_step;
     after_steps_.Restore(plan, i, blocks);
