@@ -91,14 +91,14 @@ class WorstResult {
 /// Floats hold its velocity and what it does to rows. Smaller masses than that would be none.
 bool FitsFloats(const WhitenedBody& body) {
   constexpr double kMostVelocity = 1e18, kMost = 1e15, kLeast = 1e-15;
+  // sums, as a maximum may pass over what is not a number
   const auto fits = [](double of_mass) {
     return of_mass == 0 || (of_mass >= kLeast && of_mass <= kMost);
   };
   const Velocity& free = body.free;
   return fits(body.linear[0]) && fits(body.linear[1]) && fits(body.linear[2]) &&
-         fits(body.angular.cwiseAbs().maxCoeff()) &&
-         free.linear.cwiseAbs().maxCoeff() <= kMostVelocity &&
-         free.angular.cwiseAbs().maxCoeff() <= kMostVelocity;
+         fits(body.angular.cwiseAbs().sum()) && free.linear.cwiseAbs().sum() <= kMostVelocity &&
+         free.angular.cwiseAbs().sum() <= kMostVelocity;
 }
 
 }  // namespace

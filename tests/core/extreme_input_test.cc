@@ -179,8 +179,9 @@ TEST(ExtremeNumbers, TooLargeForAnImpulseInFloatsAreRefused) {
   std::vector<ContactImpulse> x = {{.normal = 3}};
   std::vector<Velocity> velocities(2);
   Solver solver;
-  const ContactProblem problem{.bodies = bodies, .manifolds = manifolds, .points = points};
-  const Report report = solver.Solve(problem, Impulses{.points = x}, velocities);
+  const ContactProblem problem{
+      .bodies = bodies, .rows = {}, .manifolds = manifolds, .points = points};
+  const Report report = solver.Solve(problem, Impulses{.rows = {}, .points = x}, velocities);
   EXPECT_EQ(report.status, Status::kOverflow);
   EXPECT_EQ(x[0].normal, 3);
   EXPECT_TRUE(velocities[0].linear.isZero(0));

@@ -31,9 +31,7 @@ enum class Status {
   /// grew without end.
   /// The best iterate is returned: it is inside its bounds and usable.
   kNotPositiveDefinite,
-  /// All numbers are finite, and what follows from them is not: the problem is too large, or its
-  /// numbers are too far apart, for double precision.
-  kOverflow,
+  kOverflow,  ///< Numbers are finite, but too large or too far apart for a finite result.
 };
 
 /// One sentence for people, without a full stop.
