@@ -159,6 +159,8 @@ class Packer {
     const auto positive = [&](V value)
                               HWY_ATTR { return hn::And(hn::Ge(value, zero), in_range(value)); };
     Demand(hn::And(in_range(normal), hn::And(in_range(x1), in_range(x2))));
+    // directions of what overflows, or of nothing, have none
+    if (lanes_.tangents > 0) Demand(in_range(Load(point->heading, l)));
     Demand(hn::And(positive(friction), positive(Load(point->number[kRestitution], l))));
   }
 

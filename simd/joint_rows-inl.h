@@ -31,7 +31,11 @@ class JointPacker {
   JointPacker(const JointLanes& lanes, Line* out, Line* x) : lanes_(lanes), out_(out), x_(x) {
     Gather(lanes.a, &a_);
     Gather(lanes.b, &b_);
-    for (int l = 0; l < kLanes; ++l) damping_.lane[l] = lanes.damping[l];
+    for (int l = 0; l < kLanes; ++l) {
+      damping_.lane[l] = lanes.damping[l];
+      opposite_.lane[l] = lanes.opposite[l] ? 1 : 0;
+      second_moves_.lane[l] = lanes.second_moves[l] ? 1 : 0;
+    }
     if constexpr (form == PairForm::kSingle) {
       const ContactBody* moving[kLanes];
       for (int l = 0; l < kLanes; ++l) moving[l] = lanes.second_moves[l] ? lanes.b[l] : lanes.a[l];
@@ -68,10 +72,11 @@ class JointPacker {
       start_.lane[l] = lanes_.start[l][i];
     }
     for (int k = 0; k < kJointNumbers; k += 4) TransposeFour(numbers, k, number_ + k);
-    if constexpr (form == PairForm::kSingle) {
-      for (int l = 0; l < kLanes; ++l) numbers[l] += lanes_.second_moves[l] ? kLinearB : kLinearA;
-      TransposeFour(numbers, 0, moving_side_);
-      TransposeFour(numbers, 4, moving_side_ + 4);
+    for (int l = 0; l < kLanes; l += kWidth) {
+      // one side says it for both
+      const M opposite = hn::Gt(Load(opposite_, l), hn::Zero(D()));
+      const Vector a = At(number_ + kLinearA, l), b = At(number_ + kLinearB, l);
+      Put(Where(opposite, Set(-1) * a, b), number_ + kLinearB, l);
     }
   }
 
@@ -97,7 +102,8 @@ class JointPacker {
     const JointSide b{At(number_ + kLinearB, l), At(number_ + kAngularB, l)};
     V diagonal;
     if constexpr (form == PairForm::kSingle) {
-      const JointSide side{At(moving_side_, l), At(moving_side_ + 4, l)};
+      const M second = hn::Gt(Load(second_moves_, l), hn::Zero(D()));
+      const JointSide side{Where(second, b.linear, a.linear), Where(second, b.angular, a.angular)};
       diagonal = PutSide(side, moving_, l, out_, out_ + 3);
     } else if constexpr (form == PairForm::kContact) {
       Put(a.linear, out_, l);
@@ -138,8 +144,8 @@ class JointPacker {
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle
   Line damping_;
+  Line opposite_, second_moves_;        ///< 1 where that is so, else 0
   Line number_[kJointNumbers], start_;  ///< of the row
-  Line moving_side_[8];                 ///< likewise, of PairForm::kSingle
   bool fits_ = true;
 };
 

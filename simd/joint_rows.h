@@ -29,6 +29,7 @@ struct JointLanes {
   const ContactBody* b[kLanes] = {};
   /// The movable one of a PairForm::kSingle is b.
   bool second_moves[kLanes] = {};
+  bool opposite[kLanes] = {};  ///< rows are: their linear_b is not looked at
   float damping[kLanes] = {};
   const float* row[kLanes] = {};    ///< kJointNumbers numbers a row, one after the other
   const float* start[kLanes] = {};  ///< one number a row

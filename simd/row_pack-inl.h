@@ -21,8 +21,8 @@ using D = hn::CappedTag<double, 4>;
 using V = hn::Vec<D>;
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
 
-/// What a float can hold with its square.
-constexpr double kMost = 1e18, kLeast = 1e-18;
+/// As in contact_bodies-inl.h.
+constexpr double kMost = 1e12, kLeast = 1e-18, kMostTarget = 1e18, kMostEnergy = 1e30;
 
 /// The six numbers of one side, of as many lanes as a register holds.
 struct Side {
@@ -129,8 +129,10 @@ HWY_INLINE bool PackLanes(const SourceRows& rows, const BodyLines& body_a, const
   const V divisor = hn::IfThenElse(satisfiable, diagonal, one);
   const V step = hn::IfThenElse(satisfiable, hn::Div(At(rows.relaxation, lane), divisor), one);
   // comparisons with what is not a number are false
-  const V most = hn::Set(d, kMost);
-  const auto fits = hn::And(hn::And(hn::Le(hn::Abs(target), most), hn::Le(diagonal, most)),
+  const V energy = hn::Div(hn::Mul(target, target), divisor);
+  const auto target_fits = hn::And(hn::Le(hn::Abs(target), hn::Set(d, kMostTarget)),
+                                   hn::Le(energy, hn::Set(d, kMostEnergy)));
+  const auto fits = hn::And(hn::And(target_fits, hn::Le(diagonal, hn::Set(d, kMost))),
                             hn::Or(hn::Ge(diagonal, hn::Set(d, kLeast)), hn::Eq(diagonal, zero)));
 
   const V* const head = form == PairForm::kContact ? a.j : g_a;

@@ -9,6 +9,7 @@
 #include "accuracy/command.h"
 #include "cli/command_line.h"
 #include "cli/failure.h"
+#include "cli/output_file.h"
 
 namespace cairn::accuracy {
 namespace {
@@ -36,7 +37,9 @@ int Main(int count, char** arguments) {
 
 int main(int count, char** arguments) {
   try {
-    return cairn::accuracy::Main(count, arguments);
+    const int code = cairn::accuracy::Main(count, arguments);
+    cairn::cli::FinishOutput();
+    return code;
   } catch (const cairn::cli::Failure& failure) {
     fmt::print(stderr, "cairn_accuracy: {}\n", failure.what());
     return failure.code();

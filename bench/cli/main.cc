@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
 #include <memory>
 
 #include "CLI/CLI.hpp"
@@ -13,6 +14,7 @@
 #include "cli/failure.h"
 #include "cli/list.h"
 #include "cli/names.h"
+#include "cli/output_file.h"
 #include "cli/precision.h"
 #include "cli/record_command.h"
 #include "cli/run_command.h"
@@ -124,9 +126,15 @@ int Main(Arguments arguments) {
 
 int main(int count, char** arguments) {
   try {
-    return cairn::cli::Main({arguments + 1, arguments + count});
+    const int code = cairn::cli::Main({arguments + 1, arguments + count});
+    cairn::cli::FinishOutput();
+    return code;
   } catch (const cairn::cli::Failure& failure) {
     fmt::print(stderr, "cairn: {}\n", failure.what());
     return failure.code();
+  } catch (const std::exception& error) {
+    // a full disk behind stdout, or no memory
+    fmt::print(stderr, "cairn: {}\n", error.what());
+    return cairn::cli::kBadInput;
   }
 }

@@ -4,28 +4,37 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <span>
+#include <system_error>
 
+#include "cairn/whole_file.h"
 #include "cli/failure.h"
 
 namespace cairn::cli {
 namespace {
 
-[[noreturn]] void Refuse(const std::string& path) {
-  throw Failure(kBadInput, fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+void RefuseIf(const std::error_code& error, const std::string& path) {
+  if (!error) return;
+  throw Failure(kBadInput, fmt::format("cannot write '{}': {}", path, error.message()));
 }
 
 }  // namespace
 
-void CheckWritable(const std::string& path) {
-  if (!std::ofstream(path, std::ios::app)) Refuse(path);
-}
+void CheckWritable(const std::string& path) { RefuseIf(TryWholeFile(path), path); }
 
 void WriteFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::trunc | std::ios::binary);
-  file << text << std::flush;
-  if (!file) Refuse(path);
+  RefuseIf(WriteWholeFile(path, std::as_bytes(std::span(text))), path);
+}
+
+void FinishOutput() {
+  errno = 0;
+  // what was printed earlier may have failed, and then nothing is left to be flushed
+  const bool before = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !before) return;
+  throw Failure(kBadInput, fmt::format("cannot write the output: {}",
+                                       errno != 0 ? std::strerror(errno) : "some of it is lost"));
 }
 
 }  // namespace cairn::cli

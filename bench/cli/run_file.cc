@@ -136,6 +136,7 @@ RunFile ReadRunFile(const std::string& path) {
   try {
     ReadCircumstances(json, &file);
     for (const Json& scene : json.at("scenes")) file.scenes.push_back(ReadScene(scene));
+    if (file.scenes.empty()) throw std::invalid_argument("it has no scene");
   } catch (const std::exception& error) {
     throw Failure(
         kUsage, fmt::format("'{}' is no whole result of cairn run --json: {}", path, error.what()));

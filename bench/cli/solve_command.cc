@@ -128,7 +128,7 @@ LcpOptions CheckSolver(const SolveWords& words) {
   }
   if (!words.k_sm.empty()) {
     options.k_sm =
-        ParseInt("--k-sm", words.k_sm, 0, 1'000'000, "factorisations in a subspace step at most");
+        ParseInt("--k-sm", words.k_sm, 0, 1000, "factorisations in a subspace step at most");
   }
   if (!words.tol.empty()) {
     options.active_tolerance =

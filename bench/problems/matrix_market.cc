@@ -10,9 +10,13 @@
 #include <fstream>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
+
+#include "cairn/whole_file.h"
 
 namespace cairn::problems {
 namespace {
@@ -347,9 +351,8 @@ std::string ReadText(const fs::path& path) {
 }
 
 void WriteText(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::trunc | std::ios::binary);
-  file << text << std::flush;
-  if (!file) throw FileError(path, std::string("cannot be written: ") + std::strerror(errno));
+  const std::error_code error = WriteWholeFile(path.string(), std::as_bytes(std::span(text)));
+  if (error) throw FileError(path, "cannot be written: " + error.message());
 }
 
 }  // namespace cairn::problems

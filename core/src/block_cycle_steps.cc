@@ -75,7 +75,7 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
   // after the step its sweeps, and, where that is not foreseen, as many without it
   const int left = settings_->max_sweeps - SweepsMade();
   const double sweeps =
-      (watches_ ? 1 : 2) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
+      (watches_ ? 1.0 : 2.0) * std::min(settings_->k_gs, left) + 2 * BlockSweeps::kMeasureSweeps;
   const double rows = static_cast<double>(frame_->plan().groups()[g].rows);
   // what a sweep costs does not depend on how full the lanes are, so that an island does not see
   // who shares them
@@ -84,10 +84,10 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
   if (const NoStep refused = PlanGraph(g, islands, before); refused != NoStep::kEnded) {
     return refused;
   }
-  // as many factorisations as fit
+  // as many factorisations as fit, and half of them where they do not
   const bool always = settings_->step_policy == StepPolicy::kAlways;
   NoStep refused = NoStep::kTooDear;
-  for (int most = settings_->k_sm; most > 0; --most) {
+  for (int most = settings_->k_sm; most > 0; most /= 2) {
     const double price = steps_.Price(g, islands, most);
     if (!always && price > kMostSweeps * lanes) continue;
     if (!meter_->Fits(before.steps + price, before.sweeps)) continue;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 #include "manifold_pack.h"
@@ -15,6 +17,20 @@ namespace {
 constexpr int kBodiesOfUnit = 256;
 /// Rows whose laws one thread reads at a time.
 constexpr int kRowsOfUnit = 1024;
+
+constexpr int kNumbersOfBody = sizeof(simd::BodyLane) / sizeof(float);
+
+/// Whether one of so many numbers is infinite, or is none. By their bits: sums of floats are made
+/// one after the other.
+inline bool AnyEndless(const float* numbers, int count) {
+  constexpr std::uint32_t kExponent = 0x7f800000;
+  std::uint32_t bad = 0;
+  for (int i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(numbers[i]);
+    bad |= (bits & kExponent) == kExponent ? 1u : 0u;
+  }
+  return bad != 0;
+}
 
 /// One stage of units that are all alike.
 template <class Function>
@@ -72,6 +88,19 @@ class WorstResult {
   std::atomic<int> worst_{static_cast<int>(PackResult::kDone)};
 };
 
+/// Floats hold its velocity and what it does to rows. Smaller masses than that would be none.
+bool FitsFloats(const WhitenedBody& body) {
+  constexpr double kMostVelocity = 1e18, kMost = 1e15, kLeast = 1e-15;
+  // sums, as a maximum may pass over what is not a number
+  const auto fits = [](double of_mass) {
+    return of_mass == 0 || (of_mass >= kLeast && of_mass <= kMost);
+  };
+  const Velocity& free = body.free;
+  return fits(body.linear[0]) && fits(body.linear[1]) && fits(body.linear[2]) &&
+         fits(body.angular.cwiseAbs().sum()) && free.linear.cwiseAbs().sum() <= kMostVelocity &&
+         free.angular.cwiseAbs().sum() <= kMostVelocity;
+}
+
 }  // namespace
 
 simd::PairWork BlockFrame::WorkOn(int first_block, int blocks) {
@@ -106,7 +135,8 @@ bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem) const {
 
 PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const Impulses& impulses,
                              Crew* crew) {
-  if (!WhitenBodies(problem, crew)) return PackResult::kChanged;
+  const PackResult whitened = WhitenBodies(problem, crew);
+  if (whitened != PackResult::kDone) return whitened;
   if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kChanged;
   for (int i = 0; i < static_cast<int>(problem.joints.size()); ++i) {
     if (ValidateJoint(problem, i) != Status::kOk) return PackResult::kChanged;
@@ -151,23 +181,26 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
   return valid && plan_.Make(problem, laws_, movable_);
 }
 
-bool BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
+PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
   const std::span<const Body> bodies = problem.bodies;
   const bool contacts = !problem.manifolds.empty() || !problem.joints.empty();
   if (contacts) contact_bodies_.resize(bodies.size());
   bodies_.resize(bodies.size());
   movable_now_.resize(bodies.size());
-  std::atomic<bool> valid{true};
+  WorstResult worst;
   InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) {
       movable_now_[i] = MobilityOf(bodies[i]);
-      if (!Whiten(bodies[i], &bodies_[i])) valid.store(false, std::memory_order_relaxed);
+      if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kChanged);
+      if (!FitsFloats(bodies_[i])) worst.Add(PackResult::kOutOfRange);
       if (!contacts) continue;
       const ContactMotion* const motion = problem.motions.empty() ? nullptr : &problem.motions[i];
       contact_bodies_[i] = ContactBodyOf(bodies[i], bodies_[i], motion);
+      const bool endless = AnyEndless(contact_bodies_[i].linear, simd::kContactBodyNumbers);
+      if (endless) worst.Add(PackResult::kOutOfRange);
     }
   });
-  return valid;
+  return worst.get();
 }
 
 PackResult BlockFrame::Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew) {
@@ -188,6 +221,23 @@ void BlockFrame::Start(Crew* crew) {
               plan_.body_of_slot().size() * sizeof(simd::BodyLane));
   Pass pass(this, kernels_->start);
   crew->Run(&pass);
+}
+
+bool BlockFrame::IsFinite() const {
+  bool bad = false;
+  for (const simd::PairBlock& block : plan_.blocks()) {
+    const simd::Line* const x = blocks_.x.data() + block.x;
+    // unused lanes hold anything
+    const int lanes = block.lanes;
+    for (int i = 0; i < block.row_count; ++i) {
+      bad |= lanes == simd::kLanes ? AnyEndless(x[i].lane, simd::kLanes)
+                                   : AnyEndless(x[i].lane, lanes);
+    }
+  }
+  for (size_t slot = 0; slot < plan_.body_of_slot().size(); ++slot) {
+    bad |= AnyEndless(blocks_.bodies[slot].u, kNumbersOfBody);
+  }
+  return !bad;
 }
 
 void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,

@@ -22,6 +22,8 @@ class BlockFrame {
   /// kOutOfRange it may not be: see Validate().
   [[nodiscard]] PackResult Begin(const ContactProblem& problem, double omega,
                                  const Impulses& impulses, Crew* crew);
+  /// Whether the results are. What is checked before sweeps leaves little to be found here.
+  bool IsFinite() const;
   /// Writes the results.
   void End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,
            std::span<Velocity> velocities) const;
@@ -42,7 +44,7 @@ class BlockFrame {
   simd::PairWork WorkOn(int first_block, int blocks);
 
  private:
-  bool WhitenBodies(const ContactProblem& problem, Crew* crew);
+  PackResult WhitenBodies(const ContactProblem& problem, Crew* crew);
   bool MakePlan(const ContactProblem& problem, double omega, std::span<const double> impulses,
                 Crew* crew);
   PackResult Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew);

@@ -22,7 +22,7 @@ using simd::RowBound;
 using simd::RowShape;
 
 /// Impulses and friction coefficients beyond this are left to double precision.
-constexpr double kMost = 1e18;
+constexpr double kMost = 1e12;
 
 const WhitenedBody kNoBody;
 
@@ -78,6 +78,10 @@ void Clamp(RowBound bound, const Line* b, const Line* parent, Line* x) {
                    [&](int lane) { return std::min(most(lane), b[2].lane[lane]); });
   }
 }
+
+/// Kernels add changes to impulses, and round both, so that what is small after what was large may
+/// be outside by a unit of the large one.
+double InsideOwnBounds(double x, const Row& row) { return std::min(std::max(x, row.lo), row.hi); }
 
 void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
   for (int k = 0; k < 3; ++k) {
@@ -197,10 +201,24 @@ class OneBlock {
       source_.a[lane] = (straight ? row.linear_a : row.linear_b).data();
       source_.b[lane] = (straight ? row.linear_b : row.linear_a).data();
       source_.target.lane[lane] = row.target;
+      if (block_.form == PairForm::kSingle) {
+        source_.target.lane[lane] -= VelocityOfUnmoved(row.body_a, pair, row.linear_a) +
+                                     VelocityOfUnmoved(row.body_b, pair, row.linear_b);
+      }
       bounds_.friction.lane[lane] = row.friction;
     }
     if (as_planned && !usual.exists()) ReadUnusual(i);
     return as_planned;
+  }
+
+  /// J v of one side of a row, if that is a body which rows cannot move, as a platform: to the
+  /// kernel it is the world. @p side: its linear part, its angular part behind it
+  double VelocityOfUnmoved(int body, const Pair& pair, const Eigen::Vector3d& side) const {
+    const bool is_body = body >= 0 && body < static_cast<int>(packer_.bodies.size());
+    if (!is_body || body == pair.a) return 0;
+    const Velocity& free = packer_.bodies[body].free;
+    return side.dot(free.linear) +
+           Eigen::Map<const Eigen::Vector3d>(side.data() + 3).dot(free.angular);
   }
 
   bool Fits(const Row& row, const Pair& pair, int parent, const RowShape& shape) const {
@@ -339,7 +357,9 @@ void BlockPacker::WriteRows(int index, const BlockData& blocks, const Impulses& 
   for (int lane = 0; lane < block.lanes; ++lane) {
     const std::span<const int> rows = plan.rows_of(plan.pair(index, lane));
     for (int k = 0; k < block.row_count; ++k) {
-      impulses.rows[rows[k]] = static_cast<double>(blocks.x[block.x + k].lane[lane]);
+      const double x = blocks.x[block.x + k].lane[lane];
+      const bool may_be_outside = HasOwnBounds(block.rows[k].bound);
+      impulses.rows[rows[k]] = may_be_outside ? InsideOwnBounds(x, problem.rows[rows[k]]) : x;
     }
   }
 }

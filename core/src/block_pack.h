@@ -31,6 +31,11 @@ enum class PackResult {
   kOutOfRange,
 };
 
+/// Whether rows are to stay inside numbers of the caller's.
+inline bool HasOwnBounds(simd::RowBound bound) {
+  return bound == simd::RowBound::kOwn || bound == simd::RowBound::kCutFriction;
+}
+
 /// A problem on its way into blocks, and back. Different blocks may be packed at the same time.
 struct BlockPacker {
   const ContactProblem& problem;

@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "block_solver.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cairn {
 namespace {
 
 /// Problems of fewer rows stay on one thread: waiting for another would cost more than it does.
 constexpr size_t kParallelRows = 4096;
+
+/// Sums of energy are not finite if a term is not.
+bool AreFinite(std::span<const IslandReport> islands) {
+  return std::all_of(islands.begin(), islands.end(), [](const IslandReport& island) {
+    return std::isfinite(island.residual.energy);
+  });
+}
 
 /// Keeps helpers awake while it lives.
 class Shift {
@@ -32,6 +42,13 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
   cycle_.Run(problem, settings, &frame_, &memories_, meter, crew, report);
+  if (!frame_.IsFinite() || !AreFinite(report->islands)) {
+    // nothing that came of it is to be remembered
+    cycle_ = {};
+    memories_ = {};
+    report->islands.clear();
+    return PackResult::kOutOfRange;
+  }
   const SpanClock clock(settings.spans, 0, {SpanKind::kResults});
   frame_.End(problem, crew, impulses, velocities);
   return PackResult::kDone;

@@ -3,11 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cairn {
 namespace {
 
-double Relative(double value, double scale) { return scale > 0 ? value / scale : value; }
+/// Nothing is small relative to what overflowed.
+double Relative(double value, double scale) {
+  if (!std::isfinite(scale)) return std::numeric_limits<double>::infinity();
+  return scale > 0 ? value / scale : value;
+}
 
 }  // namespace
 

@@ -17,15 +17,24 @@ constexpr double kLeastSlide = 1.1920929e-7;
 
 Vector3d ToVector(const float* from) { return {from[0], from[1], from[2]}; }
 
-/// The first axis of the plane across n.
-Vector3d FirstAxis(const Vector3d& n) {
-  if (std::abs(n.z()) > std::sqrt(0.5)) return Vector3d(0, -n.z(), n.y()).normalized();
-  return Vector3d(-n.y(), n.x(), 0).normalized();
+/// Of any length whose square may not fit. Zero stays zero.
+Vector3d Normalized(const Vector3d& v) {
+  const double square = v.squaredNorm();
+  const bool fits = square > 1e-280 && square < 1e280;
+  return fits ? v.normalized() : v.stableNormalized();
 }
 
-/// Where a direction is on the square |x| + |y| = 1, from 1 at (1, 0) counter-clockwise to 5.
+/// The first axis of the plane across n.
+Vector3d FirstAxis(const Vector3d& n) {
+  if (std::abs(n.z()) > std::sqrt(0.5)) return Normalized(Vector3d(0, -n.z(), n.y()));
+  return Normalized(Vector3d(-n.y(), n.x(), 0));
+}
+
+/// Where a direction is on the square |x| + |y| = 1, from 1 at (1, 0) counter-clockwise to 5; 1 for
+/// none.
 double ToHeading(double x, double y) {
-  const double along = x / (std::abs(x) + std::abs(y));
+  const double length = std::abs(x) + std::abs(y);
+  const double along = length > 0 && std::isfinite(length) ? x / length : 1;
   return y >= 0 ? 2 - along : 4 + along;
 }
 
@@ -134,7 +143,7 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
   const double bounce = bounces ? std::max(0.0, point.restitution * approach) : 0;
   const Vector3d slide = free - n.dot(free) * n;
   const bool slides = slide.squaredNorm() > kLeastSlide;
-  const Vector3d t1 = !given.isZero(0) ? given : slides ? slide.normalized() : FirstAxis(n);
+  const Vector3d t1 = !given.isZero(0) ? given : slides ? Normalized(slide) : FirstAxis(n);
   const Vector3d t2 = t1.cross(n);
 
   // targets are for velocities as the bodies have them

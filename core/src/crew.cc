@@ -59,7 +59,23 @@ class Board {
   void Release() {
     if (owners_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
   }
-  void AddOwner() { owners_.fetch_add(1, std::memory_order_relaxed); }
+  /// A task is about to be submitted, by a helper that was counted.
+  void AddTask() {
+    owners_.fetch_add(1, std::memory_order_relaxed);
+    tasks_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// What the executor runs. Once too often, while there is a crew, does nothing.
+  void RunTask() {
+    if (!TakeTask()) return;
+    Help();
+    Release();
+  }
+  /// The task will not be run.
+  void DropTask() {
+    if (!TakeTask()) return;
+    helpers_.fetch_sub(1);
+    Release();
+  }
 
   /// Counts one more helper; false if enough are here or on their way.
   bool Expect() {
@@ -71,6 +87,7 @@ class Board {
   }
 
   void Open(int most_helpers) {
+    caller_.store(std::this_thread::get_id(), std::memory_order_relaxed);
     most_helpers_.store(most_helpers, std::memory_order_relaxed);
     open_.store(true);
   }
@@ -103,6 +120,11 @@ class Board {
   void Help() {
     // what the caller wrote before it opened the board is seen from here on
     static_cast<void>(open_.load(std::memory_order_acquire));
+    if (caller_.load(std::memory_order_relaxed) == std::this_thread::get_id()) {
+      // it would wait for itself
+      helpers_.fetch_sub(1);
+      return;
+    }
     const Helper helper{homes_.fetch_add(1, std::memory_order_relaxed) + 1, TakeLane()};
     do {
       HelpWhileOpen(helper);
@@ -120,6 +142,12 @@ class Board {
     int home = 0;  ///< where it begins to claim
     int lane = 0;  ///< of the record; nobody else has it
   };
+
+  bool TakeTask() {
+    int tasks = tasks_.load();
+    while (tasks > 0 && !tasks_.compare_exchange_weak(tasks, tasks - 1)) continue;
+    return tasks > 0;
+  }
 
   /// A label costs a virtual call, so only where somebody wants it.
   static SpanLabel LabelOf(const SpanRecorder* recorder, const StagedWork& work, int stage) {
@@ -187,6 +215,8 @@ class Board {
   }
 
   std::atomic<int> owners_{1}, helpers_{0}, most_helpers_{0}, homes_{0};
+  std::atomic<int> tasks_{0};  ///< submitted, and not run yet
+  std::atomic<std::thread::id> caller_{};
   std::uint64_t number_ = 0;
   std::atomic<StagedWork*> work_{nullptr};
   std::atomic<SpanRecorder*> recorder_{nullptr};
@@ -240,26 +270,48 @@ void Crew::Call() {
   Board* const board = impl_->board;
   board->Open(impl_->threads - 1);
   Executor* const executor = impl_->given != nullptr ? impl_->given : impl_->own.get();
-  while (board->Expect()) {
-    board->AddOwner();
-    executor->Submit(
-        [](void* what) {
-          static_cast<Board*>(what)->Help();
-          static_cast<Board*>(what)->Release();
-        },
-        board);
+  const auto task = [](void* what) { static_cast<Board*>(what)->RunTask(); };
+  try {
+    // those that return at once are not asked for again
+    for (int i = 1; i < impl_->threads && board->Expect(); ++i) {
+      board->AddTask();
+      executor->Submit(task, board);
+    }
+  } catch (...) {
+    // the one that was not taken
+    board->DropTask();
+    board->Close();
+    throw;
   }
 }
 
 void Crew::Dismiss() { impl_->board->Close(); }
 
+namespace {
+
+/// Closes a board in the end, whatever happens before.
+class Closing {
+ public:
+  explicit Closing(Board* board) : board_(board) {}
+  ~Closing() {
+    if (board_ != nullptr) board_->Close();
+  }
+  Closing(const Closing&) = delete;
+  Closing& operator=(const Closing&) = delete;
+
+ private:
+  Board* board_;
+};
+
+}  // namespace
+
 void Crew::Run(StagedWork* work) {
   const bool called_before = impl_->board->open();
   if (!called_before) Call();
+  const Closing closing(called_before ? nullptr : impl_->board);
   for (int stage = 0; stage < work->stages() && work->GoOn(stage); ++stage) {
     impl_->board->DoStage(work, stage);
   }
-  if (!called_before) Dismiss();
 }
 
 }  // namespace cairn

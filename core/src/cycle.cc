@@ -46,7 +46,8 @@ bool IslandCycle::GuardState() {
 
 void IslandCycle::Advance(BudgetMeter* meter) {
   if (Spent(*meter)) return Stop(meter->stop_reason());
-  const bool stepped = std::exchange(step_next_, false);
+  // what was left when it was planned, other islands may have spent since
+  const bool stepped = std::exchange(step_next_, false) && StepFits(meter);
   if (stepped) {
     StepLeg(meter);
   } else {
@@ -113,12 +114,18 @@ bool IslandCycle::StepsLeft() const {
          sweeps_left >= std::min(settings_.k_gs, kLeastSweepsAfterStep);
 }
 
+double IslandCycle::UnitsAfterStep() const {
+  // its sweeps, and as many without it, which it has to beat
+  return 2 * (SweepsOfLeg() + kMeasureSweeps) * units_per_sweep();
+}
+
+bool IslandCycle::StepFits(BudgetMeter* meter) const {
+  return meter->Fits(memory_->Cost(island_, settings_, settings_.k_sm), UnitsAfterStep());
+}
+
 bool IslandCycle::StepPays(BudgetMeter* meter) {
-  // after the step, its sweeps, and as many without it, which it has to beat
-  const double sweeps = 2 * (SweepsOfLeg() + kMeasureSweeps);
   const bool due = memory_->Due(settings_);
-  const bool pays =
-      due && memory_->StepPays(island_, settings_, {meter, sweeps * units_per_sweep()});
+  const bool pays = due && memory_->StepPays(island_, settings_, {meter, UnitsAfterStep()});
   report_.no_step = pays ? NoStep::kEnded : due ? NoStep::kTooDear : NoStep::kPaused;
   return pays;
 }
@@ -159,6 +166,7 @@ bool IslandCycle::KeepBetter(Point before, bool sound, BudgetMeter* meter) {
   const double merit = MeasureMerit(island_, at_.state).value();
   Point stepped = std::exchange(at_, std::move(before));
   Sweeps(stepped.sweeps - at_.sweeps, meter);
+  // what is not a number is not kept
   const StepTrial trial{.with_step = with_step.energy,
                         .alone = MeasureNow(meter).energy,
                         .closer = merit < MeasureMerit(island_, at_.state).value()};
@@ -175,6 +183,8 @@ IslandReport IslandCycle::Finish() {
   report_.rows = static_cast<int>(island_.rows.size());
   report_.sweeps = at_.sweeps;
   report_.stop = at_.stop;
+  // what increments have rounded away is not in the report, and not in the velocities
+  RecomputeVelocities(island_, &at_.state);
   report_.residual = MeasureResidual(island_, at_.state);
   return report_;
 }

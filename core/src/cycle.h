@@ -40,6 +40,8 @@ class IslandCycle {
   bool StepsLeft() const;
   /// It is worth its price here, and inside the budget.
   bool StepPays(BudgetMeter* meter);
+  bool StepFits(BudgetMeter* meter) const;
+  double UnitsAfterStep() const;
   void StepLeg(BudgetMeter* meter);
   /// After a step: keeps it, or the same number of sweeps from @p before alone.
   /// @p sound: it may be kept

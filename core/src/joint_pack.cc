@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "joint_pack.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "cairn/prefetch.h"
@@ -48,6 +49,7 @@ PackResult PackJoints(const BlockPacker& packer, int index, const Impulses& star
     lanes.a[lane] = packer.contact_body(joint.body_a);
     lanes.b[lane] = packer.contact_body(joint.body_b);
     lanes.second_moves[lane] = packer.plan.pair(index, used).a != joint.body_a;
+    lanes.opposite[lane] = joint.opposite;
     lanes.damping[lane] = joint.damping;
     lanes.row[lane] = packer.problem.joint_rows[joint.first_row].linear_a;
     lanes.start[lane] = &start.joint_rows[joint.first_row];
@@ -62,8 +64,15 @@ void WriteJoints(const BlockPacker& packer, int index, const BlockData& blocks,
   const simd::PairBlock& block = packer.plan.blocks()[index];
   const simd::Line* const x = blocks.x.data() + block.x;
   for (int lane = 0; lane < block.lanes; ++lane) {
-    float* const to = &impulses.joint_rows[JointOf(packer, index, lane).first_row];
-    for (int i = 0; i < block.row_count; ++i) to[i] = x[i].lane[lane];
+    const int first = JointOf(packer, index, lane).first_row;
+    float* const to = &impulses.joint_rows[first];
+    for (int i = 0; i < block.row_count; ++i) {
+      to[i] = x[i].lane[lane];
+      if (!HasOwnBounds(block.rows[i].bound)) continue;
+      // see InsideOwnBounds()
+      const JointRow& row = packer.problem.joint_rows[first + i];
+      to[i] = std::min(std::max(to[i], row.lo), row.hi);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #include "lcp_solver.h"
 
 #include <cmath>
+#include <vector>
 
 #include "interior_point/barrier.h"
 #include "lcp_state.h"
@@ -14,6 +15,28 @@ namespace {
 
 /// Measuring and writing the result costs about as much as this many sweeps.
 constexpr double kFinishSweeps = 2;
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// For every entry there is one across the diagonal.
+bool HasSymmetricPattern(const Matrix& m) {
+  // columns ascend, so entries of a row are asked for in the order in which it has them
+  std::vector<int> next(m.outerIndexPtr(), m.outerIndexPtr() + m.cols());
+  for (int j = 0; j < m.cols(); ++j) {
+    for (Matrix::InnerIterator entry(m, j); entry; ++entry) {
+      const Eigen::Index i = entry.row();
+      if (next[i] == m.outerIndexPtr()[i + 1] || m.innerIndexPtr()[next[i]++] != j) return false;
+    }
+  }
+  return true;
+}
+
+/// Sweeps and factors take columns for rows: what is stored in one triangle alone, zero or close to
+/// it, gets a zero across the diagonal.
+void MakePatternSymmetric(Matrix* m) {
+  const Matrix across = 0 * Matrix(m->transpose());
+  *m += across;
+}
 
 Report Refuse(Status status, int row = -1) {
   Report report;
@@ -33,10 +56,11 @@ Report LcpSolver::Solve(const BoxedLcp& problem, const Settings& settings, const
   for (int row = 0; row < static_cast<int>(x->size()); ++row) {
     if (!std::isfinite((*x)[row])) return Refuse(Status::kNotFinite, row);
   }
-  if (!problem.M.isCompressed()) {
-    BoxedLcp compressed = problem;
-    compressed.M.makeCompressed();
-    return Solve(compressed, settings, observer, x);
+  if (!problem.M.isCompressed() || !HasSymmetricPattern(problem.M)) {
+    BoxedLcp tidy = problem;
+    tidy.M.makeCompressed();
+    if (!HasSymmetricPattern(tidy.M)) MakePatternSymmetric(&tidy.M);
+    return Solve(tidy, settings, observer, x);
   }
 
   crew_.Follow(settings);

@@ -132,7 +132,7 @@ void LcpState::Show(const Eigen::VectorXd& shown) {
 }
 
 void LcpState::Begin(const Eigen::VectorXd& start) {
-  x = start.cwiseMax(problem_.lo).cwiseMin(problem_.hi);
+  x = best_x_ = start.cwiseMax(problem_.lo).cwiseMin(problem_.hi);
   KeepIfBest();
   EndIfSpent();
   Show();
@@ -152,8 +152,14 @@ void LcpState::End(StopReason reason) {
 }
 
 Report LcpState::Finish(Eigen::VectorXd* result) {
+  const LcpResidual residual = Measure(problem_, best_x_);
+  if (!std::isfinite(residual.relative) || !best_x_.allFinite()) {
+    Report overflow;
+    overflow.status = Status::kOverflow;
+    overflow.stop = StopReason::kBrokeDown;
+    return overflow;
+  }
   *result = best_x_;
-  const LcpResidual residual = Measure(problem_, *result);
   report_.residual_max = residual.max;
   report_.residual_energy = residual.energy;
   report_.residual_relative = residual.relative;

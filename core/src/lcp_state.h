@@ -78,7 +78,8 @@ class LcpState {
 
   int sweeps() const { return report_.sweeps; }
   int factorisations() const { return report_.factorisations; }
-  /// Writes the best iterate and measures it.
+  /// Writes the best iterate and measures it. Status::kOverflow, and nothing is written, if it
+  /// cannot be measured.
   Report Finish(Eigen::VectorXd* result);
 
  private:

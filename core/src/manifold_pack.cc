@@ -134,8 +134,13 @@ void WriteManifolds(const BlockPacker& packer, int index, const BlockData& block
     const Manifold& manifold = ManifoldOf(packer, index, lane);
     const simd::Line* twist = twists;
     for (int p = 0; p < manifold.points; ++p, twist += simd::kTwistRows) {
+      const ContactTwist& law = packer.problem.twists[manifold.first_point + p];
+      const auto x = [&](int k, float most) {
+        return std::clamp(twist[k].lane[lane], -most, most);
+      };
       impulses.twists[manifold.first_point + p] = {
-          .spinning = twist[0].lane[lane], .rolling = {twist[1].lane[lane], twist[2].lane[lane]}};
+          .spinning = x(0, law.most_spinning),
+          .rolling = {x(1, law.most_rolling), x(2, law.most_rolling)}};
     }
   }
 }

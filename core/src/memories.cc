@@ -25,8 +25,9 @@ IslandMemory* IslandMemories::Recall(const ContactProblem& problem, std::span<co
 
 IslandMemory* IslandMemories::Recall(std::uint64_t key, int first_body) {
   // two islands of one name must not share a system: the second goes by another name
-  while (memories_[key].last_frame == frame_) {
-    key = key * 6364136223846793005u + static_cast<std::uint64_t>(first_body + 1);
+  // the count keeps it from coming back to itself
+  for (std::uint64_t tries = 1; memories_[key].last_frame == frame_; ++tries) {
+    key = key * 6364136223846793005u + static_cast<std::uint64_t>(first_body) + tries;
   }
   Remembered& remembered = memories_[key];
   remembered.last_frame = frame_;

@@ -28,11 +28,11 @@ class IslandMemories {
   /// Small, as all of them are looked at in every frame.
   struct Remembered {
     std::unique_ptr<IslandMemory> memory = std::make_unique<IslandMemory>();
-    int last_frame = 0;
+    std::int64_t last_frame = 0;
   };
 
   std::unordered_map<std::uint64_t, Remembered> memories_;
-  int frame_ = 1;
+  std::int64_t frame_ = 1;
 };
 
 }  // namespace cairn

@@ -37,9 +37,9 @@ struct StepTrial {
 
   /// Residuals see how rough a step leaves an island, and not how far it is from its solution. They
   /// decide where phi cannot: redundant rows that contradict each other lower it the larger they
-  /// get.
+  /// get. What is not a number is not kept.
   bool is_better_alone() const {
-    return with_step > alone && (!closer || with_step > kMostRoughness * alone);
+    return !(with_step <= alone) && !(closer && with_step <= kMostRoughness * alone);
   }
   static constexpr double kMostRoughness = 4;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pack.h"
 
+#include <algorithm>
+
 namespace cairn {
 
 Packer::Packer(const ContactProblem& problem, const Settings& settings,
@@ -77,6 +79,32 @@ IslandState Packer::Start(const PackedIsland& packed, const Island& island,
   return state;
 }
 
+namespace {
+
+bool IsFinite(const Velocity& velocity) {
+  return velocity.linear.allFinite() && velocity.angular.allFinite();
+}
+
+}  // namespace
+
+Velocity Packer::VelocityOf(int body, const Vector6& u) const {
+  return Unwhiten(bodies_[body], Eigen::Map<const Eigen::Vector3d>(u.data()),
+                  Eigen::Map<const Eigen::Vector3d>(u.data() + 3));
+}
+
+bool Packer::HasFiniteVelocities() const {
+  return std::all_of(bodies_.begin(), bodies_.end(),
+                     [](const WhitenedBody& body) { return IsFinite(body.free); });
+}
+
+bool Packer::HasFiniteVelocities(const Island& island, const IslandState& state) const {
+  bool finite = true;
+  for (size_t i = 0; i < island.bodies.size(); ++i) {
+    finite = finite && IsFinite(VelocityOf(island.bodies[i], state.u[i + 1]));
+  }
+  return finite;
+}
+
 void Packer::WriteFreeVelocities(std::span<Velocity> velocities) const {
   for (size_t i = 0; i < bodies_.size(); ++i) velocities[i] = bodies_[i].free;
 }
@@ -84,10 +112,7 @@ void Packer::WriteFreeVelocities(std::span<Velocity> velocities) const {
 void Packer::WriteVelocities(const Island& island, const IslandState& state,
                              std::span<Velocity> velocities) const {
   for (size_t i = 0; i < island.bodies.size(); ++i) {
-    const double* const u = state.u[i + 1].data();
-    velocities[island.bodies[i]] =
-        Unwhiten(bodies_[island.bodies[i]], Eigen::Map<const Eigen::Vector3d>(u),
-                 Eigen::Map<const Eigen::Vector3d>(u + 3));
+    velocities[island.bodies[i]] = VelocityOf(island.bodies[i], state.u[i + 1]);
   }
 }
 

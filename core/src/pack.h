@@ -99,6 +99,9 @@ class Packer {
   static IslandState Start(const PackedIsland& packed, const Island& island,
                            std::span<const double> impulses);
 
+  /// Whether those below are finite.
+  bool HasFiniteVelocities() const;
+  bool HasFiniteVelocities(const Island& island, const IslandState& state) const;
   /// Velocity of every body without constraints.
   void WriteFreeVelocities(std::span<Velocity> velocities) const;
   /// Velocities of the bodies of one island.
@@ -107,6 +110,7 @@ class Packer {
 
  private:
   PackedRow PackRow(const Row& row) const;
+  Velocity VelocityOf(int body, const Vector6& u) const;
   Vector6 WhitenRow(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) const;
 
   ContactProblem problem_;

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "cairn/recording.h"
+#include "cairn/whole_file.h"
 #include "recording_format.h"
 
 namespace cairn {
@@ -43,20 +44,9 @@ RecordingStatus ReadBytes(std::FILE* file, std::uintmax_t size, std::vector<std:
 RecordingStatus Save(const Recording& recording, const std::string& path) {
   std::vector<std::byte> bytes;
   if (RecordingStatus status = Encode(recording, &bytes); !status.ok()) return status;
-  const std::string part = path + ".part";
-  File file(std::fopen(part.c_str(), "wb"));
-  if (!file) return Because(RecordingFault::kCannotWrite, "cannot be created");
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  RecordingStatus status;
-  if (!written) status = Because(RecordingFault::kCannotWrite, "cannot be written");
-  // what was buffered may still find the disk full
-  const bool closed = std::fclose(file.release()) == 0;
-  if (status.ok() && !closed) status = Because(RecordingFault::kCannotWrite, "cannot be written");
-  if (status.ok() && std::rename(part.c_str(), path.c_str()) != 0) {
-    status = Because(RecordingFault::kCannotWrite, "cannot be created");
-  }
-  if (!status.ok()) std::remove(part.c_str());
-  return status;
+  const std::error_code error = WriteWholeFile(path, bytes);
+  if (!error) return {};
+  return {RecordingFault::kCannotWrite, "cannot be written: " + error.message()};
 }
 
 RecordingStatus Load(const std::string& path, Recording* recording) {

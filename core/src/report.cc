@@ -36,6 +36,8 @@ std::string_view Describe(Status status) {
       return "the matrix is not symmetric";
     case Status::kNotPositiveDefinite:
       return "the matrix is not positive definite: no minimum, or none that this method finds";
+    case Status::kOverflow:
+      return "the numbers are so large, or so far apart, that the result is not finite";
   }
   return "unknown status";
 }

@@ -2,6 +2,9 @@
 #include "cairn/solver.h"
 
 #include <algorithm>
+#include <cmath>
+#include <exception>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,15 @@ BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, Wor
   return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices);
 }
 
+/// Report::bad_row and its like, from one who looked.
+void CopyJudgement(const Report& checked, Report* report) {
+  report->status = checked.status;
+  report->bad_row = checked.bad_row;
+  report->bad_body = checked.bad_body;
+  report->bad_manifold = checked.bad_manifold;
+  report->bad_joint = checked.bad_joint;
+}
+
 /// Adds up what was done on the islands.
 void SumUp(Report* report) {
   report->stop = report->islands.empty() ? StopReason::kConverged : StopReason::kNotStarted;
@@ -57,35 +69,88 @@ bool SweepsInFloats(const Settings& settings) {
   return settings.order == SweepOrder::kColoured;
 }
 
-struct Solver::Impl {
-  void SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
-                     std::span<Velocity> velocities, Report* report);
-  /// Row by row in double precision, in the order of the problem: the reference.
-  void SolveRows(const ContactProblem& problem, BudgetMeter* meter, std::span<double> impulses,
-                 std::span<Velocity> velocities, Report* report);
+namespace {
 
-  Settings settings;
-  WorkPrices block_prices,
-      row_prices{
-          .sweep_ns = 20, .step_ns = 20, .finish_ns = 30, .least_step_ns = 8, .most_step_ns = 40};
-  BlockSolver blocks;
-  LcpSolver lcp;
-  Observer observer;
+/// Where SolveRows() reads the start, and writes.
+struct RowsOut {
+  std::span<double> impulses;
+  size_t floats;  ///< impulses from this one on end up in floats
+  std::span<Velocity> velocities;
 };
 
-void Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
+/// Whether a result may be written.
+bool IsResult(const Packer& packer, const Island& island, const IslandState& state,
+              const Residual& residual, size_t floats) {
+  constexpr double kMostFloat = std::numeric_limits<float>::max();
+  constexpr double kMostDouble = std::numeric_limits<double>::max();
+  // comparisons with what is not a number are false
+  bool fits = residual.energy <= kMostDouble;
+  for (size_t k = 0; k < state.x.size(); ++k) {
+    const bool is_float = static_cast<size_t>(island.rows[k]) >= floats;
+    fits = fits && std::abs(state.x[k]) <= (is_float ? kMostFloat : kMostDouble);
+  }
+  return fits && packer.HasFiniteVelocities(island, state);
+}
+
+}  // namespace
+
+struct Solver::Impl {
+  /// Throws away what an exception has left half done: a solver is new after one.
+  class Attempt {
+   public:
+    explicit Attempt(Impl* impl) : impl_(impl) {
+      if (impl->blocks == nullptr) impl->blocks = std::make_unique<BlockSolver>();
+      if (impl->lcp == nullptr) impl->lcp = std::make_unique<LcpSolver>();
+    }
+    ~Attempt() {
+      if (std::uncaught_exceptions() > exceptions_) impl_->Forget();
+    }
+    Attempt(const Attempt&) = delete;
+    Attempt& operator=(const Attempt&) = delete;
+
+   private:
+    Impl* impl_;
+    int exceptions_ = std::uncaught_exceptions();
+  };
+
+  /// What was learnt. The next Attempt makes it anew.
+  void Forget() {
+    blocks.reset();
+    lcp.reset();
+    block_prices = {};
+    row_prices = kRowPrices;
+  }
+  /// False, and nothing is written, if the result is not finite.
+  bool SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
+                     std::span<Velocity> velocities, Report* report);
+  /// Row by row in double precision, in the order of the problem: the reference. Likewise, or if
+  /// impulses from row @p floats on are too large for a float.
+  bool SolveRows(const ContactProblem& problem, BudgetMeter* meter, const RowsOut& out,
+                 Report* report);
+
+  static constexpr WorkPrices kRowPrices = {
+      .sweep_ns = 20, .step_ns = 20, .finish_ns = 30, .least_step_ns = 8, .most_step_ns = 40};
+
+  Settings settings;
+  Observer observer;
+  WorkPrices block_prices, row_prices = kRowPrices;
+  std::unique_ptr<BlockSolver> blocks;
+  std::unique_ptr<LcpSolver> lcp;
+};
+bool Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
                                  const Impulses& impulses, std::span<Velocity> velocities,
                                  Report* report) {
   if (problem.manifolds.empty() && problem.joints.empty()) {
-    return SolveRows(problem, meter, impulses.rows, velocities, report);
+    return SolveRows(problem, meter, {impulses.rows, impulses.rows.size(), velocities}, report);
   }
   ContactExpansion expansion(problem, impulses);
-  SolveRows(expansion.problem(), meter, expansion.impulses(), velocities, report);
-  expansion.Write(impulses);
+  const RowsOut out{expansion.impulses(), problem.rows.size(), velocities};
+  const bool solved = SolveRows(expansion.problem(), meter, out, report);
+  if (solved) expansion.Write(impulses);
+  return solved;
 }
 
-void Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter,
-                             std::span<double> impulses, std::span<Velocity> velocities,
+bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, const RowsOut& out,
                              Report* report) {
   // problem in
   const Packer packer(problem, settings);
@@ -96,8 +161,8 @@ void Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter,
   cycles.reserve(islands.size());
   for (const Island& island : islands) {
     packed.push_back(packer.Pack(island));
-    cycles.emplace_back(packed.back(), Packer::Start(packed.back(), island, impulses), settings,
-                        blocks.memories().Recall(problem, island.bodies));
+    cycles.emplace_back(packed.back(), Packer::Start(packed.back(), island, out.impulses), settings,
+                        blocks->memories().Recall(problem, island.bodies));
   }
 
   // a leg for every island in turn, until all are done
@@ -110,18 +175,24 @@ void Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter,
     }
   }
 
-  // results back
+  // results back, all or none
   meter->Begin();
-  packer.WriteFreeVelocities(velocities);
+  bool fits = packer.HasFiniteVelocities();
+  for (size_t i = 0; i < islands.size(); ++i) {
+    IslandReport& island = report->islands.emplace_back(cycles[i].Finish());
+    island.first_body = islands[i].bodies.empty() ? -1 : islands[i].bodies.front();
+    fits = fits && IsResult(packer, islands[i], cycles[i].state(), island.residual, out.floats);
+  }
+  if (!fits) return false;
+  packer.WriteFreeVelocities(out.velocities);
   report->island_of.assign(problem.bodies.size(), -1);
   for (size_t i = 0; i < islands.size(); ++i) {
     for (int body : islands[i].bodies) report->island_of[body] = static_cast<int>(i);
     const IslandState& state = cycles[i].state();
-    for (size_t k = 0; k < state.x.size(); ++k) impulses[islands[i].rows[k]] = state.x[k];
-    packer.WriteVelocities(islands[i], state, velocities);
-    report->islands.push_back(cycles[i].Finish());
-    report->islands.back().first_body = islands[i].bodies.empty() ? -1 : islands[i].bodies.front();
+    for (size_t k = 0; k < state.x.size(); ++k) out.impulses[islands[i].rows[k]] = state.x[k];
+    packer.WriteVelocities(islands[i], state, out.velocities);
   }
+  return true;
 }
 
 Solver::Solver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
@@ -134,12 +205,7 @@ Solver& Solver::operator=(Solver&&) noexcept = default;
 Settings& Solver::settings() { return impl_->settings; }
 const Settings& Solver::settings() const { return impl_->settings; }
 
-void Solver::Reset() {
-  auto fresh = std::make_unique<Impl>();
-  fresh->settings = impl_->settings;
-  fresh->observer = std::move(impl_->observer);
-  impl_ = std::move(fresh);
-}
+void Solver::Reset() { impl_->Forget(); }
 
 void Solver::Observe(Observer observer) { impl_->observer = std::move(observer); }
 
@@ -147,7 +213,8 @@ Report Solver::Solve(const BoxedLcp& problem, Eigen::VectorXd* x) {
   const Settings settings = impl_->settings;
   Report report;
   report.status = Validate(settings);
-  return report.ok() ? impl_->lcp.Solve(problem, settings, impl_->observer, x) : report;
+  const Impl::Attempt attempt(impl_.get());
+  return report.ok() ? impl_->lcp->Solve(problem, settings, impl_->observer, x) : report;
 }
 
 Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorXd* v) {
@@ -198,24 +265,26 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
   if (velocities.size() != problem.bodies.size()) report->status = Status::kWrongSize;
   if (!report->ok()) return;
 
+  const Impl::Attempt attempt(impl_.get());
   bool in_blocks = InBlocks(problem, settings);
   WorkPrices* const prices = in_blocks ? &impl_->block_prices : &impl_->row_prices;
   BudgetMeter meter = MeterOf(settings, problem, prices);
   meter.Record(&report->replay);
   if (in_blocks) {
     const PackResult result =
-        impl_->blocks.Solve(problem, settings, &meter, impulses, velocities, report);
+        impl_->blocks->Solve(problem, settings, &meter, impulses, velocities, report);
     in_blocks = result == PackResult::kDone;
   }
   if (!in_blocks) {
-    const Report checked = Validate(problem, impulses);
-    report->status = checked.status;
-    report->bad_row = checked.bad_row;
-    report->bad_body = checked.bad_body;
-    report->bad_manifold = checked.bad_manifold;
-    report->bad_joint = checked.bad_joint;
+    CopyJudgement(Validate(problem, impulses), report);
     if (!report->ok()) return;
-    impl_->SolveInDouble(problem, &meter, impulses, velocities, report);
+    if (!impl_->SolveInDouble(problem, &meter, impulses, velocities, report)) {
+      report->islands.clear();
+      report->status = Status::kOverflow;
+      report->stop = StopReason::kBrokeDown;
+      impl_->blocks->memories().EndFrame();
+      return;
+    }
   }
   meter.ChargeFinish();
   SumUp(report);
@@ -223,7 +292,7 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
   report->elapsed = meter.elapsed();
   report->step_predicted = meter.steps_predicted();
   report->step_time = meter.steps_time();
-  impl_->blocks.memories().EndFrame();
+  impl_->blocks->memories().EndFrame();
 }
 
 }  // namespace cairn

@@ -105,7 +105,7 @@ Status CheckJointRows(const ContactProblem& problem, const Joint& joint, const I
     if (joint.soft) zero += 0 * row.compliance;
     for (int k = 0; k < 3; ++k) {
       zero += 0 * row.linear_a[k] + 0 * row.angular_a[k];
-      zero += 0 * row.linear_b[k] + 0 * row.angular_b[k];
+      zero += 0 * row.angular_b[k] + (joint.opposite ? 0 : 0 * row.linear_b[k]);
     }
     if (zero != 0) return Status::kNotFinite;
     if (joint.soft && row.compliance < 0) return Status::kBadCompliance;
@@ -118,6 +118,8 @@ Status CheckJointRows(const ContactProblem& problem, const Joint& joint, const I
 }
 
 constexpr int kMostThreads = 1024;
+/// Of one step: far beyond what any takes.
+constexpr int kMostFactorisations = 1000, kMostSolves = 1000;
 
 bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
 
@@ -231,8 +233,11 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   if (report.ok() && !sizes) report.status = Status::kWrongSize;
   if (!report.ok()) return report;
 
+  // nobody else looks at them
+  const bool seen =
+      !problem.motions.empty() && !(problem.joints.empty() && problem.manifolds.empty());
   const auto body = [&](int i) {
-    const bool finite = problem.motions.empty() || Finite(problem.motions[i]);
+    const bool finite = !seen || Finite(problem.motions[i]);
     return finite ? CheckBody(problem.bodies[i]) : Status::kNotFinite;
   };
   const auto row = [&](int i) { return ValidateRow(problem, i, impulses.rows[i]); };
@@ -266,8 +271,9 @@ Status Validate(const Settings& settings) {
       Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
       Inside(static_cast<int>(lifted_friction), 0, 1) &&
       Inside(static_cast<int>(acceleration), 0, 1) && Inside(static_cast<int>(step_policy), 0, 1);
-  const bool counts = k_gs >= 1 && k_sm >= 0 && max_sweeps >= 0 && min_sweeps >= 0 &&
-                      Inside(threads, 1, kMostThreads) && refinements >= 1;
+  const bool counts = k_gs >= 1 && Inside(k_sm, 0, kMostFactorisations) && max_sweeps >= 0 &&
+                      min_sweeps >= 0 && Inside(threads, 1, kMostThreads) &&
+                      Inside(refinements, 1, kMostSolves);
   const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
                      omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
                      Inside(proximal_joints, 1e-12, 1) && Inside(active_tolerance, 0, kInfinity);

@@ -39,11 +39,14 @@ Report CheckVectors(const BoxedLcp& problem) {
   return {};
 }
 
-/// Finite entries and a positive diagonal.
+/// Finite entries, from the first row down, and a positive diagonal.
 Report CheckEntries(const Matrix& m) {
   for (Index j = 0; j < m.cols(); ++j) {
     double diagonal = 0;
+    Index last = -1;
     for (Matrix::InnerIterator entry(m, j); entry; ++entry) {
+      if (entry.row() <= last || entry.row() >= m.rows()) return Refuse(Status::kWrongSize, j);
+      last = entry.row();
       if (!std::isfinite(entry.value())) return Refuse(Status::kNotFinite, j);
       if (entry.row() == j) diagonal += entry.value();
     }

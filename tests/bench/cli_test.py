@@ -132,6 +132,65 @@ class RefusalTest(CairnTest):
             self.assertIn(path, message)
 
 
+class OutputTest(CairnTest):
+    """A full disk, a closed stdout, a folder without rights, a kill."""
+    COMMANDS = (("list", "scenes"), ("list", "problems", "--json"), ("doctor", "--bullet"),
+                ("--help",), ("run", "--help"), (*SMALL, "--quiet"),
+                ("solve", "slider", "--size", "20", "--quiet"))
+
+    def failed(self, command, stdout):
+        result = subprocess.run(command, stdout=stdout, stderr=subprocess.PIPE, text=True,
+                                timeout=300, shell=isinstance(command, str))
+        self.assertEqual(result.returncode, BAD_INPUT, result.stderr)
+        self.assertIn("cairn: cannot write the output", result.stderr)
+
+    def test_output_that_finds_the_disk_full_is_an_error(self):
+        for arguments in self.COMMANDS:
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                self.failed([TOOL, *arguments], full)
+
+    def test_output_without_a_stdout_is_an_error(self):
+        for arguments in self.COMMANDS:
+            self.failed(f"'{TOOL}' {' '.join(arguments)} >&-", None)
+
+    def test_a_file_that_finds_the_disk_full_is_an_error(self):
+        result = cairn(*SMALL, "--json", "/dev/full")
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertIn("/dev/full", result.stderr)
+
+    def test_a_file_in_a_folder_that_may_not_be_written_is_refused_before_the_run(self):
+        os.mkdir(self.path("closed"), mode=0o500)
+        if os.access(self.path("closed"), os.W_OK):
+            self.skipTest("nothing is closed to this user")
+        self.refused(BAD_INPUT, *SMALL, "--json", self.path("closed/r.json"))
+
+    def test_a_run_that_is_killed_leaves_the_old_file_or_none(self):
+        with open(self.path("old.json"), "w", encoding="utf-8") as file:
+            file.write("old")
+        for name in ("old.json", "new.json"):
+            run = subprocess.Popen([TOOL, "run", "castle", "--frames", "100000", "--json",
+                                    self.path(name)], stdout=subprocess.DEVNULL)
+            with self.assertRaises(subprocess.TimeoutExpired):
+                run.wait(timeout=1)
+            run.kill()
+            run.wait()
+        with open(self.path("old.json"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "old")
+        self.assertEqual(os.listdir(self.folder), ["old.json"])
+
+    def test_a_file_that_is_written_again_keeps_its_rights_and_its_links(self):
+        with open(self.path("r.json"), "w", encoding="utf-8") as file:
+            file.write("old")
+        os.chmod(self.path("r.json"), 0o640)
+        os.symlink(self.path("r.json"), self.path("link.json"))
+        self.fine(*SMALL, "--json", self.path("link.json"))
+        self.assertEqual(os.stat(self.path("r.json")).st_mode & 0o777, 0o640)
+        self.assertTrue(os.path.islink(self.path("link.json")))
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            json.load(file)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["link.json", "r.json"])
+
+
 class RunTest(CairnTest):
     def test_each_kind_of_file_is_written_and_can_be_read(self):
         out = self.fine(*SMALL, "--solver", "bullet-si,cairn", "--budget", "2ms",

@@ -215,6 +215,12 @@ class FileTest(CompareTest):
                        lambda r: r["context"].pop("host")):
             self.assertIn("no whole result", self.refusal(self.changed(change)))
 
+    def test_a_result_without_scenes_is_no_whole_one(self):
+        message = self.refusal(self.changed(lambda new: new["scenes"].clear()))
+        self.assertIn("it has no scene", message)
+        self.assertIn("it has no scene", self.refusal(
+            self.old, old=self.changed(lambda new: new["scenes"].clear())))
+
     def test_a_scene_or_solver_that_is_missing_is_refused(self):
         self.assertIn("lacks the scene wall", self.refusal(self.changed(lambda r: r["scenes"].pop())))
         self.assertIn("lacks cairn on tower", self.refusal(

@@ -8,6 +8,7 @@ import tree
 
 NEEDS_LICENCE = tree.CPP + (".py",)
 PICTURES = (".png",)
+INPUTS_OF_FUZZERS = "tests/fuzz/corpus/"
 LOOSE_END = re.compile(r"\b(TODO(?!\(#\d+\))|FIXME|XXX)\b")
 # Where it may be called, as the file says.
 PREFETCH = "__builtin_" + "prefetch", "core/include/cairn/prefetch.h"
@@ -41,7 +42,8 @@ def check(path):
 
 def main():
     top = [name for name in os.listdir(tree.ROOT) if os.path.isfile(os.path.join(tree.ROOT, name))]
-    paths = [path for path in sorted(top) + tree.walk(tree.TEXT_FOLDERS) if not path.endswith(PICTURES)]
+    paths = [path for path in sorted(top) + tree.walk(tree.TEXT_FOLDERS)
+             if not path.endswith(PICTURES) and not path.startswith(INPUTS_OF_FUZZERS)]
     tree.finish([error for path in paths for error in check(path)], len(paths))
 
 

@@ -24,7 +24,7 @@ class Executor {
 
   /// Calls work(what) once, now or later, on a thread other than the caller's. Called by the thread
   /// that called Solve(). The call may come after the Solver is gone; it allocates nothing and does
-  /// not throw.
+  /// not throw. What Submit() throws is thrown by Solve(); then work(what) must not be called.
   virtual void Submit(void (*work)(void*), void* what) = 0;
 };
 

@@ -33,7 +33,8 @@ struct Joint {
   /// Share of what the bodies do without constraints that rows work against; 1: all.
   float damping = 1;
   bool soft = false;  ///< Rows have a compliance.
-  /// Rows push the bodies with opposite forces: linear_b is -linear_a. That is swept faster.
+  /// Rows push the bodies with opposite forces: linear_b is -linear_a, whatever it says. That is
+  /// swept faster.
   bool opposite = false;
   /// Sweeps of a Solve() that the rows take part in, counted from the first.
   int max_sweeps = std::numeric_limits<int>::max();

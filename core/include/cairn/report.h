@@ -31,6 +31,7 @@ enum class Status {
   /// grew without end.
   /// The best iterate is returned: it is inside its bounds and usable.
   kNotPositiveDefinite,
+  kOverflow,  ///< Numbers are finite, but too large or too far apart for a finite result.
 };
 
 /// One sentence for people, without a full stop.

@@ -32,8 +32,8 @@ enum class SweepOrder {
   kSymmetric,  ///< Forward and reverse in turn. Contact problems: as kForward.
   /// Colour by colour: what has one colour shares no unknown, and threads relax it side by side.
   /// Same bits for any number of threads. Contact problems: all rows of two bodies together, joints
-  /// before contacts, in floats with vector instructions; the same bits for any of those. Numbers
-  /// beyond 1e18 are left to kForward. See docs/solver.md.
+  /// before contacts, in floats with vector instructions; the same bits for any of those. What
+  /// floats cannot hold is left to kForward: a start or 1 / d beyond 1e12, say. See docs/solver.md.
   kColoured,
 };
 
@@ -66,9 +66,9 @@ struct Settings {
   /// Sweeps before each subspace step, and again after it, >= 1. Five are enough to smooth what the
   /// step leaves behind; two are not.
   int k_gs = 5;
-  /// Factorisations in one subspace step at most, >= 0: one, and one more for each pass that
-  /// removes rows which left their bounds. 0 makes every method but kInteriorPoint plain sweeps. In
-  /// matrix form kPgsSm goes on beyond it while the predicted set settles.
+  /// Factorisations in one subspace step at most, in [0, 1000]: one, and one more for each pass
+  /// that removes rows which left their bounds. 0 makes every method but kInteriorPoint plain
+  /// sweeps. In matrix form kPgsSm goes on beyond it while the predicted set settles.
   int k_sm = 2;
   /// Sweeps in one Solve() at most, >= 0.
   int max_sweeps = 1000;
@@ -114,8 +114,8 @@ struct Settings {
   /// adds impulses of what they contradict each other divided by it: 1e-8 made 100 times the
   /// impulses of a bridge, which floats cannot hold against each other, 1e-6 none to speak of.
   double proximal_joints = 1e-6;
-  /// Solves with the last factor of a step at most, >= 1. Those after the first refine it while no
-  /// row leaves its bounds; see docs/solver.md before raising it.
+  /// Solves with the last factor of a step at most, in [1, 1000]. Those after the first refine it
+  /// while no row leaves its bounds; see docs/solver.md before raising it.
   int refinements = 1;
   /// Problems in matrix form: a row belongs to the predicted free set if it is further than this
   /// from its bounds, unit of x, >= 0; the paper's tol.

@@ -53,7 +53,8 @@ int RemoveViolated(const PackedIsland& island, const IslandState& state, ActiveS
     RowSide& side = (*set)[i];
     if (side != RowSide::kFree) continue;
     const Bounds bounds = PredictedBounds(island, state, *set, island.rows[i]);
-    if (state.x[i] < bounds.lo - tolerance) {
+    // what is not a number leaves, too
+    if (!(state.x[i] >= bounds.lo - tolerance)) {
       side = RowSide::kLo;
     } else if (state.x[i] > bounds.hi + tolerance) {
       side = RowSide::kHi;

@@ -183,7 +183,8 @@ std::uint32_t BlockLaw<T>::RemoveViolated() const {
       RowSide& side = sides[i].lane[l];
       if (side != RowSide::kFree || lanes.taken.lane[l] == 0) continue;
       const T now = x[i].lane[l], near = lanes.tolerance.lane[l];
-      if (now < bounds.lo.lane[l] - near) {
+      // what is not a number leaves, too
+      if (!(now >= bounds.lo.lane[l] - near)) {
         side = RowSide::kLo;
       } else if (now > bounds.hi.lane[l] + near) {
         side = RowSide::kHi;
