@@ -73,9 +73,7 @@ void CheckBits(const bench::CampaignOptions& options, std::vector<bench::WorldRe
 std::string ShrinkFailures(const bench::CampaignOptions& options,
                            const std::vector<bench::WorldResult>& results,
                            const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Failure(kBadInput, fmt::format("{}: {}", folder, error.message()));
+  MakeFolder(folder);
   std::string text;
   for (const bench::WorldResult& result : results) {
     for (size_t i = 0; i < options.variants.size(); ++i) {
@@ -83,6 +81,12 @@ std::string ShrinkFailures(const bench::CampaignOptions& options,
     }
   }
   return text;
+}
+
+void MakeFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Failure(kBadInput, fmt::format("{}: {}", folder, error.message()));
 }
 
 std::string DescribeWorld(const bench::WorldSeed& seed) {

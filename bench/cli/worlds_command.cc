@@ -150,6 +150,7 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   }
   const bench::CampaignOptions options = Check(words);
   if (!words.json.empty()) CheckWritable(words.json);
+  if (!words.shrink.empty()) MakeFolder(words.shrink);
   std::vector<bench::WorldResult> results = RunWithProgress(options, ParseProgress(words.output));
   if (words.bits) CheckBits(options, &results);
   for (const bench::WorldResult& result : results) {
