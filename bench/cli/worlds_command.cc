@@ -15,6 +15,9 @@
 #include "cli/command_line.h"
 #include "cli/failure.h"
 #include "cli/names.h"
+#include "cli/output_file.h"
+#include "cli/worlds_check.h"
+#include "cli/worlds_json.h"
 #include "cli/worlds_output.h"
 
 namespace cairn::cli {
@@ -23,11 +26,26 @@ namespace {
 /// What was typed behind the options of `cairn worlds`.
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
-  std::string seconds = "5", jobs;
-  bool list = false, report = false, audit = false;
+  std::string seconds = "5", scale = "1", jobs, json, shrink;
+  bool list = false, report = false, audit = false, bits = false;
   OutputWords output;
 };
 
+constexpr const char* kHowToRead = R"(
+fly       a body faster than 60 m/s and twice as fast as in any run of Bullet, or not a number
+audit     impulses of a substep that are worth less than none: they put energy in
+restless  faster than 3 m/s in the last quarter, where every run of Bullet is below 1 m/s
+gap       a joint gap, or penetr, above 3 times that of Bullet with the iterations of the world and
+          with 10, and 0.1 m
+momentum  in free fall, relative drift above 1e-3 and 3 times Bullet's
+bits      --bits: other bits with other SIMD targets or more threads
+asleep    worlds in which all bodies fell asleep, of those in which they may
+bullet    the iterations of the world; fly: above 60 m/s; restless: with 10, not with 100
+docs/worlds.md says more. Next: cairn worlds --seed N --report
+)";
+constexpr const char* kWorldsNotes =
+    "A seed is a world, the same bits each time; its kind is the seed modulo the number of kinds.\n"
+    "Exit codes: 0 fine, 1 an oracle failed, 2 usage, 3 a file cannot be written.";
 constexpr long long kMostSeed = 1'000'000'000'000;
 
 std::vector<std::uint64_t> ParseSeeds(const WorldsWords& words) {
@@ -95,6 +113,8 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.variants = ParseVariants(words.solvers);
   options.trial.seconds =
       ParseNumber("--seconds", words.seconds, 0.01, 3600, "simulated seconds of each world");
+  options.trial.world.scale =
+      ParseNumber("--scale", words.scale, 0.01, 1, "the share of their size that worlds have");
   options.trial.audit_every = words.audit || words.report ? 1 : 10;
   const int cores = std::max(1u, std::thread::hardware_concurrency());
   options.jobs =
@@ -123,27 +143,28 @@ void ListKinds() {
   }
 }
 
-std::string DescribeWorld(const bench::WorldSeed& seed) {
-  btSequentialImpulseConstraintSolver solver;
-  return bench::RandomWorld(seed, &solver).Describe();
-}
-
-int DoWorlds(const WorldsWords& words) {
+int DoWorlds(const WorldsWords& words, const std::string& command) {
   if (words.list) {
     ListKinds();
     return kFine;
   }
   const bench::CampaignOptions options = Check(words);
-  const std::vector<bench::WorldResult> results =
-      RunWithProgress(options, ParseProgress(words.output));
-  if (words.report) {
-    for (const bench::WorldResult& result : results) {
-      fmt::print("{}\n", WorldReport(result, DescribeWorld({result.seed}), options.variants));
-    }
-  } else {
-    fmt::print("{}\n", WorldTables(results, options.variants));
+  if (!words.json.empty()) CheckWritable(words.json);
+  if (!words.shrink.empty()) MakeFolder(words.shrink);
+  std::vector<bench::WorldResult> results = RunWithProgress(options, ParseProgress(words.output));
+  if (words.bits) CheckBits(options, &results);
+  for (const bench::WorldResult& result : results) {
+    if (!words.report) break;
+    const bench::WorldSeed seed{result.seed, options.trial.world.scale};
+    fmt::print("{}\n", WorldReport(result, DescribeWorld(seed), options.variants));
   }
+  if (!words.report) fmt::print("{}\n", WorldTables(results, options.variants));
   fmt::print("{}", FailedWorlds(results, options.variants));
+  if (!words.output.quiet && !words.report) fmt::print("{}", kHowToRead);
+  if (!words.json.empty()) WriteFile(words.json, WorldsToJson(options, results, command));
+  if (!words.shrink.empty()) {
+    fmt::print("\nshrunk:\n{}", ShrinkFailures(options, results, words.shrink));
+  }
   const bool failed = std::any_of(results.begin(), results.end(),
                                   [](const bench::WorldResult& result) { return result.failed(); });
   return failed ? kCheckFailed : kFine;
@@ -155,6 +176,7 @@ Command AddWorldsCommand(CLI::App* app) {
   const auto words = std::make_shared<WorldsWords>();
   CLI::App* const worlds = app->add_subcommand(
       "worlds", "Run random worlds with Cairn and Bullet, and say which of them go wrong");
+  worlds->footer(kWorldsNotes);
   const auto add = [worlds](const char* name, std::string* word, const char* help,
                             const char* type) { AddText(worlds, name, word, help, type); };
   add("--seeds", &words->seeds, "Worlds FROM to TO - 1", "FROM:TO");
@@ -163,12 +185,18 @@ Command AddWorldsCommand(CLI::App* app) {
       "Of cairn, cairn-sweeps, cairn-work, cairn-always; default: all of them", "A,B,...");
   add("--kind", &words->kinds, "Only worlds of these kinds; see --list", "K,...");
   add("--seconds", &words->seconds, "Simulated time of each world; default 5", "S");
+  add("--scale", &words->scale, "Smaller worlds: share of their size, at most 1; default 1", "X");
   add("--jobs", &words->jobs, "Worlds run side by side; default: as many as cores", "N");
+  add("--json", &words->json, "Write everything about every world", "FILE");
+  add("--shrink", &words->shrink,
+      "Make failures smaller, and write them and their worst frame into a folder", "DIR");
   worlds->add_flag("--list", words->list, "Names the kinds of worlds");
   worlds->add_flag("--report", words->report, "Shows each world in detail; best with --seed");
   worlds->add_flag("--audit", words->audit, "Audits every substep, not every tenth");
+  worlds->add_flag("--bits", words->bits,
+                   "Runs all again with other SIMD targets and more threads: same bits?");
   AddOutputWords(worlds, &words->output);
-  return {worlds, [words](const std::string&) { return DoWorlds(*words); }};
+  return {worlds, [words](const std::string& typed) { return DoWorlds(*words, typed); }};
 }
 
 }  // namespace cairn::cli

@@ -18,6 +18,7 @@ using bench::Trial;
 using bench::Variant;
 using bench::WorldResult;
 
+constexpr size_t kTen = 1;  // of Yardsticks()
 constexpr std::string_view kShort[bench::kOracles] = {"fly",    "audit",    "restless", "gap",
                                                       "penetr", "momentum", "bits"};
 
@@ -31,47 +32,55 @@ std::string Count(std::span<const WorldResult> results, Holds holds) {
   return fmt::format("{}", std::count_if(results.begin(), results.end(), holds));
 }
 
-/// "4.2", "inf" if it never came, "-" where there is none.
-std::string Median(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return std::isnan(value); });
-  if (values.empty()) return "-";
-  std::sort(values.begin(), values.end());
-  const double median = values[values.size() / 2];
-  return std::isinf(median) ? "never" : fmt::format("{:.2f}", median);
-}
-
+/// Worlds that fell asleep of those that may, the median time until then of worlds that do with ten
+/// iterations of Bullet, and the mean cost.
 template <class GetTrial>
 std::vector<std::string> TimeCells(std::span<const WorldResult> results, GetTrial get) {
-  std::vector<double> asleep;
+  std::vector<double> times;
+  int may = 0, asleep = 0;
   double cpu = 0;
   for (const WorldResult& result : results) {
-    asleep.push_back(get(result).asleep_at);
-    cpu += get(result).cpu_seconds;
+    const Trial& trial = get(result);
+    cpu += trial.cpu_seconds;
+    may += !std::isnan(trial.asleep_at);
+    asleep += std::isfinite(trial.asleep_at);
+    if (std::isfinite(result.bullet[kTen].asleep_at)) times.push_back(trial.asleep_at);
   }
-  return {Median(asleep), fmt::format("{:.1f}", 1e3 * cpu / double(results.size()))};
+  std::sort(times.begin(), times.end());
+  const double median = times.empty() ? NAN : times[times.size() / 2];
+  return {fmt::format("{}/{}", asleep, may),
+          std::isnan(median)   ? "-"
+          : std::isinf(median) ? "never"
+                               : fmt::format("{:.2f}", median),
+          fmt::format("{:.1f}", 1e3 * cpu / double(results.size()))};
+}
+
+/// A line of a run of Bullet: of oracles only what it is asked for.
+std::vector<std::string> BulletRow(std::span<const WorldResult> results, size_t index) {
+  std::vector<std::string> row = {bench::Yardsticks()[index].name};
+  row.resize(1 + bench::kOracles, "-");
+  row[1 + size_t(Oracle::kFliesApart)] = Count(results, [&](const WorldResult& result) {
+    return !(result.bullet[index].fastest <= Trial::kTooFast);
+  });
+  if (index == kTen) {
+    row[1 + size_t(Oracle::kRestless)] = Count(
+        results, [](const WorldResult& result) { return bench::IsBulletRestless(result.bullet); });
+  }
+  for (std::string& cell :
+       TimeCells(results, [&](const WorldResult& r) -> const Trial& { return r.bullet[index]; })) {
+    row.push_back(std::move(cell));
+  }
+  return row;
 }
 
 TextTable TotalTable(std::span<const WorldResult> results, std::span<const Variant> variants) {
   TextTable table;
   table.columns = {{"solver", ""}};
   for (const std::string_view oracle : kShort) table.columns.push_back({std::string(oracle), ""});
-  table.columns.push_back({"asleep", "median s"});
-  table.columns.push_back({"CPU", "ms/world"});
+  table.columns.insert(table.columns.end(),
+                       {{"asleep", ""}, {"after", "median s"}, {"CPU", "ms/world"}});
   for (size_t i = 0; i < bench::Yardsticks().size(); ++i) {
-    const auto trial = [i](const WorldResult& result) -> const Trial& { return result.bullet[i]; };
-    std::vector<std::string> row = {bench::Yardsticks()[i].name};
-    row.push_back(Count(results, [&](const WorldResult& result) {
-      return !(trial(result).fastest <= Trial::kTooFast);
-    }));
-    row.push_back("-");
-    row.push_back(i == 1 ? Count(results,
-                                 [](const WorldResult& result) {
-                                   return bench::IsBulletRestless(result.bullet);
-                                 })
-                         : "-");
-    row.resize(table.columns.size() - 2, "-");
-    for (std::string& cell : TimeCells(results, trial)) row.push_back(std::move(cell));
-    table.rows.push_back(std::move(row));
+    table.rows.push_back(BulletRow(results, i));
   }
   for (size_t i = 0; i < variants.size(); ++i) {
     std::vector<std::string> row = {variants[i].name};

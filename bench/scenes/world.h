@@ -26,9 +26,9 @@ enum class ConnectedBodies { kCollide, kPassThrough };
 /// A Bullet world that owns all of its parts but the solver. Units are m, kg, s; y points up and
 /// gravity is -9.81 m/s^2; nothing bounces unless its surface says so.
 ///
-/// Bodies never sleep unless LetSleep() says so: a scene that has come to rest is what a solver is measured on, and Bullet
-/// does not solve what sleeps. Two friction directions per contact, otherwise Bullet's default
-/// settings; they may be changed in solver_info().
+/// Bodies never sleep unless LetSleep() says so: a scene that has come to rest is what a solver is
+/// measured on, and Bullet does not solve what sleeps. Two friction directions per contact,
+/// otherwise Bullet's default settings; they may be changed in solver_info().
 ///
 /// The same calls give the same bits each time, whatever else the process does.
 class World {

@@ -83,8 +83,8 @@ void DrawSceneBridge(Draft* draft) {
   Apply(*draft->rules(), draft->world());
   const std::unique_ptr<Scene> scene = Make(*FindScene("two-pin-bridge"));
   const int planks = draft->Count(12, 50);
-  // As designed in one of four worlds.
-  const std::uint64_t seed = draft->Chance(0.25) ? 0 : 1 + draft->random()->Bits() % 1000;
+  // As designed in one of twenty worlds.
+  const std::uint64_t seed = draft->Chance(0.05) ? 0 : 1 + draft->random()->Bits() % 1000;
   scene->Build(draft->world(), {.size = draft->scale() == 1 ? 50 : planks, .seed = seed});
 }
 

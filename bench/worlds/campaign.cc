@@ -8,6 +8,38 @@
 #include <thread>
 
 namespace cairn::bench {
+namespace {
+
+/// Calls `run` for each seed's index on the threads of the options.
+template <class RunOne>
+void ForEachWorld(const CampaignOptions& options, RunOne run) {
+  const size_t count = options.seeds.size();
+  std::atomic<size_t> next{0};
+  std::mutex mutex;
+  size_t done = 0;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (size_t i; (i = next++) < count;) {
+      try {
+        run(i);
+        const std::lock_guard lock(mutex);
+        ++done;
+        if (options.progress) options.progress(done);
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
 
 bool WorldResult::failed() const {
   return std::any_of(findings.begin(), findings.end(),
@@ -30,30 +62,28 @@ WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed) {
 
 std::vector<WorldResult> RunWorlds(const CampaignOptions& options) {
   std::vector<WorldResult> results(options.seeds.size());
-  std::atomic<size_t> next{0};
-  std::mutex mutex;
-  size_t done = 0;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (size_t i; (i = next++) < results.size();) {
-      try {
-        results[i] = RunWorld(options, {options.seeds[i], options.trial.world.scale});
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (options.progress) options.progress(done);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = results.size();
+  ForEachWorld(options, [&](size_t i) {
+    results[i] = RunWorld(options, {options.seeds[i], options.trial.world.scale});
+  });
+  return results;
+}
+
+void CompareBits(const CampaignOptions& options, std::vector<WorldResult>* results) {
+  ForEachWorld(options, [&](size_t i) {
+    WorldResult& result = (*results)[i];
+    TrialOptions trial = options.trial;
+    trial.world.seed = options.seeds[i];
+    trial.audit_every = 0;
+    for (size_t k = 0; k < options.variants.size(); ++k) {
+      const Trial again = RunTrial(trial, options.variants[k]);
+      const bool known =
+          std::any_of(result.findings[k].begin(), result.findings[k].end(),
+                      [](const Finding& finding) { return finding.oracle == Oracle::kBits; });
+      if (again.hash != result.trials[k].hash && !known) {
+        result.findings[k].push_back({Oracle::kBits, 1, 0});
       }
     }
-  };
-  std::vector<std::thread> workers;
-  for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
-  work();
-  for (std::thread& worker : workers) worker.join();
-  if (failure) std::rethrow_exception(failure);
-  return results;
+  });
 }
 
 }  // namespace cairn::bench

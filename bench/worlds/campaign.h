@@ -35,4 +35,9 @@ std::vector<WorldResult> RunWorlds(const CampaignOptions& options);
 /// One world. @param seed  instead of that of the options
 WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed);
 
+/// Runs the same worlds with the variants again, and adds a finding where one does not end with the
+/// bits of its result. @pre the results are those of the options, but for what must not matter:
+/// threads, instruction set.
+void CompareBits(const CampaignOptions& options, std::vector<WorldResult>* results);
+
 }  // namespace cairn::bench

@@ -30,7 +30,7 @@
   KIND(Spring2Row, "spring-2-row", "a row of btGeneric6DofSpring2Constraint")                \
   KIND(Sliders, "sliders", "sliders with limits and motors, in rows and one on another")     \
   KIND(ConeTwists, "cone-twists", "chains of cone-twist joints with narrow limits")          \
-  KIND(Gears, "gears", "wheels on hinges, geared, with a motor")                             \
+  KIND(Gears, "gears", "wheels on hinges, geared, with a motor and weights")                 \
   KIND(FixedFrame, "fixed-frame", "boxes fixed to each other, one to several, dropped")      \
   KIND(Ring, "ring", "closed loops of hinges or two pins, more joints than needed")          \
   KIND(Truss, "truss", "a truss of bars and pins with braces it does not need")              \

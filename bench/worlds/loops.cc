@@ -65,23 +65,26 @@ void DrawTruss(Draft* draft) {
                                  At(side * btScalar(i), height + side * btScalar(k), 0)));
     }
   }
-  const auto bar = [&](int a, int b) {
-    const btVector3 from = knots[a]->getCenterOfMassPosition(),
-                    to = knots[b]->getCenterOfMassPosition(), along = to - from;
+  // Diagonals lie before and behind the others, so that nothing starts inside of anything.
+  const auto bar = [&](int a, int b, btScalar layer) {
+    const btVector3 z(0, 0, 1), shift = btScalar(2.5) * layer * thick * z;
+    const btVector3 from = knots[a]->getCenterOfMassPosition() + shift,
+                    to = knots[b]->getCenterOfMassPosition() + shift, along = to - from;
     btRigidBody* const body = draft->Box(btVector3(along.length() / 2 - 3 * thick, thick, thick),
                                          mass, FrameAlongX((from + to) / 2, along));
-    const btVector3 cut = 2 * thick * along.normalized(), z(0, 0, 1);
-    Connect(draft, hold, knots[a], body, {from + cut, z, along, 2 * thick});
-    Connect(draft, hold, body, knots[b], {to - cut, z, along, 2 * thick});
+    const btVector3 cut = 2 * thick * along.normalized();
+    const btScalar half_width = thick * btScalar(layer == 0 ? 2 : 0.5);
+    Connect(draft, hold, knots[a], body, {from + cut, z, along, half_width});
+    Connect(draft, hold, body, knots[b], {to - cut, z, along, half_width});
   };
   const bool crossed = draft->Chance(0.5);
   for (int i = 0; i < bays; ++i) {
     const int k = 2 * i;
-    bar(k, k + 2);
-    bar(k + 1, k + 3);
-    bar(k + 2, k + 3);
-    bar(k, k + 3);
-    if (crossed) bar(k + 1, k + 2);
+    bar(k, k + 2, 0);
+    bar(k + 1, k + 3, 0);
+    bar(k + 2, k + 3, 0);
+    bar(k, k + 3, 1);
+    if (crossed) bar(k + 1, k + 2, -1);
   }
   const btScalar half = side / 4;
   draft->Box(btVector3(half, half, half), mass * draft->DrawRatio(0.3, 100),
@@ -95,7 +98,8 @@ void DrawTree(Draft* draft) {
   const Hold hold = draft->Chance(0.3) ? Hold::kFixed : DrawHold(draft);
   const btScalar length = draft->Draw(0.3, 0.6), mass = draft->DrawRatio(0.5, 10);
   const bool held = draft->Chance(0.6), lighter = draft->Chance(0.7);
-  const btScalar spread = draft->Draw(0.3, 1);
+  const btScalar spread = draft->Draw(0.5, 1.2);
+  btVector3 side(0, 0, 0);
   struct Branch {
     btRigidBody* body;
     btVector3 end, way;
@@ -104,16 +108,22 @@ void DrawTree(Draft* draft) {
   std::vector<Branch> tree;
   const auto add = [&](const btVector3& from, const btVector3& way, btScalar weight) {
     const btTransform pose = FrameAlongX(from + length / 2 * way, way);
-    tree.push_back(
-        {draft->Box(length / 2 * btVector3(btScalar(0.8), btScalar(0.15), btScalar(0.15)), weight,
-                    pose),
-         from + length * way, way, weight > 0 ? weight : mass});
+    tree.push_back({draft->Box(length / 2 * btVector3(btScalar(0.75), btScalar(0.1), btScalar(0.1)),
+                               weight, pose),
+                    from + length * way, way, weight > 0 ? weight : mass});
   };
   add(btVector3(0, held ? 0 : length, 0), btVector3(0, 1, 0), held ? 0 : mass);
   for (int i = 1; i < bodies; ++i) {
     const Branch parent = tree[(i - 1) / 2];
-    const btVector3 side = draft->random()->InCube(spread);
-    const btVector3 way = (parent.way + side + btVector3(0, btScalar(0.3), 0)).normalized();
+    // The two branches of a fork part to opposite sides.
+    if (i % 2 == 1) {
+      const btScalar turn = draft->Draw(0, 6.28);
+      side = spread * btVector3(std::cos(turn), 0, std::sin(turn));
+      side -= side.dot(parent.way) * parent.way;
+    } else {
+      side = -side;
+    }
+    const btVector3 way = (parent.way + side).normalized();
     add(parent.end, way, lighter ? parent.mass * draft->Draw(0.4, 1) : mass);
     Connect(draft, hold, parent.body, tree.back().body,
             {parent.end, way.cross(btVector3(btScalar(0.3), 0, 1)).normalized(), way, length / 10});

@@ -87,6 +87,12 @@ void DrawGears(Draft* draft) {
       draft->Add(std::make_unique<btGearConstraint>(*previous, *wheel, btVector3(0, 1, 0),
                                                     btVector3(0, 1, 0), radius / last_radius));
     }
+    // A weight on its rim, which it lifts and lets down.
+    if (draft->Chance(0.5)) {
+      const btVector3 rim = at + btVector3(0, -radius * btScalar(0.8), btScalar(0.25));
+      btRigidBody* const weight = draft->Sphere(radius / 4, mass * draft->DrawRatio(0.03, 3), rim);
+      Pin(draft, wheel, weight, rim);
+    }
     previous = wheel;
     last_radius = radius;
   }

@@ -109,7 +109,7 @@ void DrawJointedHub(Draft* draft) {
   const btScalar length = draft->Draw(0.4, 1);
   const Hold hold = DrawHold(draft);
   const btVector3 middle(0, hub + 2 * length + draft->Draw(0, 1), 0);
-  const btScalar hub_mass = held ? 0 : mass * draft->DrawRatio(0.05, 200);
+  const btScalar hub_mass = held ? 0 : mass * draft->DrawRatio(0.3, 200);
   btRigidBody* const body = draft->Box(btVector3(hub, btScalar(0.2), hub), hub_mass,
                                        At(middle.x(), middle.y(), middle.z()));
   for (int i = 0; i < spokes; ++i) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What drives on motors.
+#include <algorithm>
+
 #include "worlds/parts.h"
 
 namespace cairn::bench {
@@ -127,7 +129,8 @@ void DrawCart(Draft* draft) {
           draft, chassis, wheel, FrameAlongZ(wheel->getCenterOfMassPosition(), btVector3(0, 0, 1)));
       if (n == 0) axle->enableAngularMotor(true, speed, strength * car.mass * car.radius);
     }
-    const btScalar half = car.length + btScalar(0.15);
+    const btScalar wheels = car.length * btScalar(0.8) + car.radius;
+    const btScalar half = std::max(car.length, wheels) + btScalar(0.15);
     if (previous != nullptr) {
       const btVector3 coupling = car.at + btVector3(half, 0, 0);
       if (draft->Chance(0.5)) {

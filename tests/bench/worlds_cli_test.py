@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: MIT
+"""cairn worlds as its users meet it: python3 worlds_cli_test.py PATH_OF_CAIRN"""
+import json
+import os
+import re
+import sys
+import unittest
+
+import cli_test
+from cli_test import USAGE, CairnTest, cairn
+
+FAILED = 1
+BRIDGE = "6"  # a seed of the kind two-pin-bridge
+QUICK = ["worlds", "--seeds", "0:8", "--seconds", "0.2"]
+
+
+class WorldsTest(CairnTest):
+    def worlds(self, *arguments):
+        """What it wrote, whether or not an oracle failed."""
+        result = cairn("worlds", *arguments)
+        self.assertIn(result.returncode, (0, FAILED), result.stderr)
+        return result.stdout
+
+    def test_list_names_the_kinds(self):
+        names = [line.split()[0] for line in self.fine("worlds", "--list").splitlines()]
+        self.assertIn("bridge-two-pins", names)
+        self.assertGreaterEqual(len(names), 30)
+        self.assertEqual(len(set(names)), len(names))
+
+    def test_the_table_has_a_line_for_each_solver_and_kind(self):
+        text = self.worlds("--seeds", "0:8", "--seconds", "0.2", "--solver", "cairn,cairn-work")
+        for name in ("bullet-10", "bullet-100", "cairn", "cairn-work", "chain", "net"):
+            self.assertRegex(text, rf"(?m)^{name} ")
+        self.assertNotIn("cairn-always", text)
+        self.assertIn("restless", text)
+
+    def test_results_do_not_depend_on_jobs(self):
+        results = []
+        for jobs in ("1", "3"):
+            self.worlds("--seeds", "0:8", "--seconds", "0.2", "--jobs", jobs, "--json",
+                        self.path("w.json"))
+            with open(self.path("w.json"), encoding="utf-8") as file:
+                worlds = json.load(file)["worlds"]
+            for world in worlds:
+                for solver in world["solvers"]:
+                    del solver["cpu_s"]
+            results.append(worlds)
+        self.assertEqual(results[0], results[1])
+        self.assertEqual([world["seed"] for world in results[0]], list(range(8)))
+        self.assertEqual(len(results[0][0]["solvers"]), 7)
+
+    def test_a_kind_leaves_only_its_worlds(self):
+        self.worlds("--seeds", "0:90", "--kind", "tower,gears", "--seconds", "0.1", "--solver",
+                    "cairn-sweeps", "--json", self.path("w.json"))
+        with open(self.path("w.json"), encoding="utf-8") as file:
+            kinds = [world["kind"] for world in json.load(file)["worlds"]]
+        self.assertEqual(set(kinds), {"tower", "gears"})
+
+    def test_a_report_says_what_the_world_is(self):
+        text = self.worlds("--seed", BRIDGE, "--report", "--seconds", "0.2", "--solver", "cairn")
+        self.assertRegex(text, r"^seed 6, two-pin-bridge: .*; 53 bodies of .* kg, 98 joints; 60 Hz, 10 iterations")
+        self.assertRegex(text, r"(?m)^bullet-100 .*\ncairn ")
+
+    def test_a_smaller_scale_has_fewer_bodies(self):
+        text = self.worlds("--seed", BRIDGE, "--report", "--seconds", "0.2", "--scale", "0.1")
+        self.assertLess(int(re.search(r"; (\d+) bodies", text).group(1)), 53)
+
+    def test_the_same_bits_on_every_target(self):
+        self.assertRegex(self.worlds(*QUICK[1:], "--bits", "--solver", "cairn"),
+                         r"(?m)^cairn +\d+ +\d+ +\d+ +\d+ +\d+ +\d+ +0 ")
+
+    def test_what_cannot_be_is_refused(self):
+        for words, expected in ((["worlds"], "--seeds"),
+                                (["worlds", "--seeds", "5"], "FROM:TO"),
+                                (["worlds", "--seeds", "9:3"], "none"),
+                                (["worlds", "--seeds", "a:3"], "--seeds"),
+                                (["worlds", "--seeds", "0:9", "--kind", "castles"], "kind"),
+                                (["worlds", "--seed", "1", "--kind", "tower"], "none of the seeds"),
+                                (["worlds", "--seed", "1", "--solver", "bulet"], "solver"),
+                                (["worlds", "--seed", "1", "--solver", ","], "no solver"),
+                                (["worlds", "--seed", "1", "--seconds", "0"], "--seconds"),
+                                (["worlds", "--seed", "1", "--scale", "2"], "--scale"),
+                                (["worlds", "--seed", "1", "--jobs", "0"], "--jobs"),
+                                (["worlds", "--seed", "-1"], "--seed"),
+                                (["worlds", "--sed", "1"], "--seed")):
+            self.assertIn(expected, self.refused(USAGE, *words))
+
+    def test_files_that_cannot_be_written_are_refused_before_the_run(self):
+        self.refused(cli_test.BAD_INPUT, "worlds", "--seeds", "0:100000", "--json", "/no/such/place")
+        self.refused(cli_test.BAD_INPUT, "worlds", "--seeds", "0:100000", "--shrink",
+                     "/dev/null/place")
+
+
+if __name__ == "__main__":
+    cli_test.TOOL = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
