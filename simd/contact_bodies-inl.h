@@ -18,10 +18,10 @@ namespace HWY_NAMESPACE {
 namespace contacts {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Impulses, coefficients and d up to kMost, d from kLeast on, targets up to kMostTarget and the
-/// energy of a row up to kMostEnergy are held by floats with all that sweeps make of them: the
-/// square of a velocity u is at most that energy, or d x^2.
-constexpr float kMost = 1e12f, kLeast = 1e-18f, kMostTarget = 1e18f, kMostEnergy = 1e30f;
+/// Impulses, coefficients and d up to kMost, d from kLeast on, and the energy of a row up to
+/// kMostEnergy are held by floats with all that sweeps make of them: the square of a velocity u is
+/// at most that energy, or d x^2.
+constexpr float kMost = 1e12f, kLeast = 1e-18f, kMostEnergy = 1e30f;
 
 /// The bodies of all lanes, ContactBody by number.
 struct Bodies {
@@ -52,9 +52,8 @@ HWY_INLINE M PutStep(V target, V diagonal, int l, Line* out) {
   const V step = one / hn::IfThenElse(satisfiable, diagonal, one);
   Store(hn::IfThenElseZero(satisfiable, target), out, l);
   Store(step, out + 1, l);
-  // comparisons with what is not a number are false
-  const M target_fits = hn::And(hn::Le(hn::Abs(target), Set(kMostTarget)),
-                                hn::Le(target * target * step, Set(kMostEnergy)));
+  // comparisons with what is not a number are false; squares of targets beyond 1e19 are infinite
+  const M target_fits = hn::Le(target * target * step, Set(kMostEnergy));
   return hn::And(hn::And(target_fits, hn::Le(diagonal, Set(kMost))),
                  hn::Or(hn::Ge(diagonal, Set(kLeast)), hn::Eq(diagonal, zero)));
 }

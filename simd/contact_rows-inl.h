@@ -158,9 +158,10 @@ class Packer {
     const auto in_range = [&](V value) HWY_ATTR { return hn::Le(hn::Abs(value), most); };
     const auto positive = [&](V value)
                               HWY_ATTR { return hn::And(hn::Ge(value, zero), in_range(value)); };
-    Demand(hn::And(in_range(normal), hn::And(in_range(x1), in_range(x2))));
+    M starts = hn::And(in_range(normal), hn::And(in_range(x1), in_range(x2)));
     // directions of what overflows, or of nothing, have none
-    if (lanes_.tangents > 0) Demand(in_range(Load(point->heading, l)));
+    if (lanes_.tangents > 0) starts = hn::And(starts, in_range(Load(point->heading, l)));
+    Demand(starts);
     Demand(hn::And(positive(friction), positive(Load(point->number[kRestitution], l))));
   }
 

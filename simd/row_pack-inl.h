@@ -129,9 +129,9 @@ HWY_INLINE bool PackLanes(const SourceRows& rows, const BodyLines& body_a, const
   const V divisor = hn::IfThenElse(satisfiable, diagonal, one);
   const V step = hn::IfThenElse(satisfiable, hn::Div(At(rows.relaxation, lane), divisor), one);
   // comparisons with what is not a number are false
-  const V energy = hn::Div(hn::Mul(target, target), divisor);
-  const auto target_fits = hn::And(hn::Le(hn::Abs(target), hn::Set(d, kMostTarget)),
-                                   hn::Le(energy, hn::Set(d, kMostEnergy)));
+  const auto target_fits =
+      hn::And(hn::Le(hn::Abs(target), hn::Set(d, kMostTarget)),
+              hn::Le(hn::Mul(target, target), hn::Mul(hn::Set(d, kMostEnergy), divisor)));
   const auto fits = hn::And(hn::And(target_fits, hn::Le(diagonal, hn::Set(d, kMost))),
                             hn::Or(hn::Ge(diagonal, hn::Set(d, kLeast)), hn::Eq(diagonal, zero)));
 

@@ -17,8 +17,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Aimed at of a budget of time, so that the last block of rows still ends inside it.
-constexpr int kAimPercent = 98;
+/// Share of a budget of time, 1 / kReserve, that is left over, so that the last block of rows still
+/// ends inside it.
+constexpr int kReserve = 50;
 
 constexpr const char* kSource =
     sizeof(btScalar) == 4 ? "cairn::bullet, float" : "cairn::bullet, float64";
@@ -82,8 +83,8 @@ struct ConstraintSolver::Impl {
 
 void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
   if (budget->kind() != Budget::Kind::kTime || !budget->valid()) return;
-  const std::chrono::nanoseconds left =
-      budget->time() * kAimPercent / 100 - (Clock::now() - start) - write_time - finish_time;
+  const std::chrono::nanoseconds left = budget->time() - budget->time() / kReserve -
+                                        (Clock::now() - start) - write_time - finish_time;
   *budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
 }
 

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cstdint>
+#include <cmath>
 #include <cstring>
 
 #include "manifold_pack.h"
@@ -19,18 +18,23 @@ constexpr int kBodiesOfUnit = 256;
 constexpr int kRowsOfUnit = 1024;
 
 constexpr int kNumbersOfBody = sizeof(simd::BodyLane) / sizeof(float);
+constexpr int kNumbersOfMotion = sizeof(ContactMotion) / sizeof(float);
 
-/// Whether one of so many numbers is infinite, or is none. By their bits: sums of floats are made
-/// one after the other.
-inline bool AnyEndless(const float* numbers, int count) {
-  constexpr std::uint32_t kExponent = 0x7f800000;
-  std::uint32_t bad = 0;
-  for (int i = 0; i < count; ++i) {
-    const auto bits = std::bit_cast<std::uint32_t>(numbers[i]);
-    bad |= (bits & kExponent) == kExponent ? 1u : 0u;
+/// Looks at many groups of so many numbers for what is infinite, or none: zero times that is not
+/// zero. One sum for each place, so that all of a group are added at once.
+template <int kCount>
+class Finiteness {
+ public:
+  void See(const float* numbers) {
+    for (int i = 0; i < kCount; ++i) zeros_[i] += 0 * numbers[i];
   }
-  return bad != 0;
-}
+  bool all() const {
+    return std::all_of(zeros_, zeros_ + kCount, [](float zero) { return zero == 0; });
+  }
+
+ private:
+  float zeros_[kCount] = {};
+};
 
 /// One stage of units that are all alike.
 template <class Function>
@@ -89,16 +93,20 @@ class WorstResult {
 };
 
 /// Floats hold its velocity and what it does to rows. Smaller masses than that would be none.
-bool FitsFloats(const WhitenedBody& body) {
+bool FitsFloats(const Body& given, const WhitenedBody& body) {
   constexpr double kMostVelocity = 1e18, kMost = 1e15, kLeast = 1e-15;
-  // sums, as a maximum may pass over what is not a number
-  const auto fits = [](double of_mass) {
-    return of_mass == 0 || (of_mass >= kLeast && of_mass <= kMost);
+  const auto fits = [](double of_mass, double least, double most) {
+    return (of_mass == 0) | ((of_mass >= least) & (of_mass <= most));
   };
-  const Velocity& free = body.free;
-  return fits(body.linear[0]) && fits(body.linear[1]) && fits(body.linear[2]) &&
-         fits(body.angular.cwiseAbs().sum()) && free.linear.cwiseAbs().sum() <= kMostVelocity &&
-         free.angular.cwiseAbs().sum() <= kMostVelocity;
+  // one by one, none waits for another; comparisons with what is not a number are false
+  bool all = fits(given.inv_inertia.trace(), kLeast * kLeast, kMost * kMost);
+  for (int k = 0; k < 3; ++k) {
+    all &= fits(body.linear[k], kLeast, kMost) & (std::abs(body.free.linear[k]) <= kMostVelocity) &
+           (std::abs(body.free.angular[k]) <= kMostVelocity) &
+           (std::abs(given.velocity.linear[k]) <= kMostVelocity) &
+           (std::abs(given.velocity.angular[k]) <= kMostVelocity);
+  }
+  return all;
 }
 
 }  // namespace
@@ -189,16 +197,17 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
   movable_now_.resize(bodies.size());
   WorstResult worst;
   InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
+    Finiteness<kNumbersOfMotion> motions;
     for (int i = first; i < first + count; ++i) {
       movable_now_[i] = MobilityOf(bodies[i]);
       if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kChanged);
-      if (!FitsFloats(bodies_[i])) worst.Add(PackResult::kOutOfRange);
+      if (!FitsFloats(bodies[i], bodies_[i])) worst.Add(PackResult::kOutOfRange);
       if (!contacts) continue;
       const ContactMotion* const motion = problem.motions.empty() ? nullptr : &problem.motions[i];
       contact_bodies_[i] = ContactBodyOf(bodies[i], bodies_[i], motion);
-      const bool endless = AnyEndless(contact_bodies_[i].linear, simd::kContactBodyNumbers);
-      if (endless) worst.Add(PackResult::kOutOfRange);
+      if (motion != nullptr) motions.See(reinterpret_cast<const float*>(motion));
     }
+    if (!motions.all()) worst.Add(PackResult::kOutOfRange);
   });
   return worst.get();
 }
@@ -224,20 +233,12 @@ void BlockFrame::Start(Crew* crew) {
 }
 
 bool BlockFrame::IsFinite() const {
-  bool bad = false;
-  for (const simd::PairBlock& block : plan_.blocks()) {
-    const simd::Line* const x = blocks_.x.data() + block.x;
-    // unused lanes hold anything
-    const int lanes = block.lanes;
-    for (int i = 0; i < block.row_count; ++i) {
-      bad |= lanes == simd::kLanes ? AnyEndless(x[i].lane, simd::kLanes)
-                                   : AnyEndless(x[i].lane, lanes);
-    }
-  }
+  // an impulse that is not finite has pushed a body
+  Finiteness<kNumbersOfBody> velocities;
   for (size_t slot = 0; slot < plan_.body_of_slot().size(); ++slot) {
-    bad |= AnyEndless(blocks_.bodies[slot].u, kNumbersOfBody);
+    velocities.See(blocks_.bodies[slot].u);
   }
-  return !bad;
+  return velocities.all();
 }
 
 void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -201,6 +202,24 @@ TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
   world.Step();
   EXPECT_EQ(solver.report().stop, StopReason::kTimeSpent);
   EXPECT_EQ(solver.report().sweeps, 1);  // Settings::min_sweeps
+}
+
+TEST(Features, ABudgetOfAllTheTimeThereIsEndsNothing) {
+  for (bullet::Mode mode : {bullet::Mode::kFast, bullet::Mode::kReference}) {
+    Settings settings;
+    settings.budget = Budget::Time(std::chrono::nanoseconds::max());
+    settings.max_sweeps = 30;
+    settings.tolerance = 0;
+    settings.k_sm = 0;
+    bullet::Options options;
+    options.mode = mode;
+    bullet::ConstraintSolver solver(settings, options);
+    World world(&solver);
+    HangBox(&world);
+    world.Step();
+    EXPECT_NE(solver.report().stop, StopReason::kTimeSpent);
+    EXPECT_GT(solver.report().sweeps, 1);
+  }
 }
 
 TEST(Features, ABudgetOfWorkGivesTheSameBitsTwice) {
