@@ -11,54 +11,54 @@ using Eigen::Vector3d;
 
 Vector3d ToVector(const btVector3& v) { return {double(v.x()), double(v.y()), double(v.z())}; }
 
-struct Momenta {
-  Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
-  double mass = 0, linear_size = 0, angular_size = 0;
-};
-
-Momenta Sum(const World& world) {
-  Momenta sum;
-  Vector3d middle = Vector3d::Zero();
-  for (const btRigidBody* body : world.dynamic_bodies()) {
-    const double mass = body->getMass();
-    sum.mass += mass;
-    middle += mass * ToVector(body->getCenterOfMassPosition());
-    sum.linear += mass * ToVector(body->getLinearVelocity());
-    sum.linear_size += mass * double(body->getLinearVelocity().length());
-  }
-  middle /= sum.mass;
-  const Vector3d drift = sum.linear / sum.mass;
-  for (const btRigidBody* body : world.dynamic_bodies()) {
-    const Vector3d arm = ToVector(body->getCenterOfMassPosition()) - middle;
-    const Vector3d speed = ToVector(body->getLinearVelocity()) - drift;
-    const btVector3 turning =
-        body->getInvInertiaTensorWorld().inverse() * body->getAngularVelocity();
-    sum.angular += body->getMass() * arm.cross(speed) + ToVector(turning);
-    sum.angular_size += body->getMass() * arm.norm() * speed.norm() + double(turning.length());
-  }
-  return sum;
+Eigen::Matrix3d InertiaOf(const btRigidBody& body) {
+  const btMatrix3x3 inertia = body.getInvInertiaTensorWorld().inverse();
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) result.row(i) = ToVector(inertia[i]);
+  return result;
 }
 
 }  // namespace
 
-MomentumWatch::MomentumWatch(const World& world) {
-  const Momenta now = Sum(world);
-  for (int i = 0; i < 3; ++i) {
-    start_[i] = now.linear[i];
-    start_[3 + i] = now.angular[i];
+void MomentumWatch::Begin(const World& world) {
+  places_.clear();
+  middle_.setZero();
+  mass_ = 0;
+  for (const btRigidBody* body : world.dynamic_bodies()) {
+    places_.push_back(
+        {ToVector(body->getCenterOfMassPosition()), InertiaOf(*body), double(body->getMass())});
+    mass_ += places_.back().mass;
+    middle_ += places_.back().mass * places_.back().position;
   }
-  linear_size_ = std::max(linear_size_, now.linear_size);
-  angular_size_ = std::max(angular_size_, now.angular_size);
+  middle_ /= mass_;
+  before_ = Sum(world);
 }
 
-void MomentumWatch::Look(const World& world, double time) {
+MomentumWatch::Momenta MomentumWatch::Sum(const World& world) {
+  Momenta sum{Vector3d::Zero(), Vector3d::Zero()};
+  double linear_size = 0, angular_size = 0;
+  for (size_t i = 0; i < places_.size(); ++i) {
+    const btRigidBody& body = *world.dynamic_bodies()[i];
+    const Vector3d linear = places_[i].mass * ToVector(body.getLinearVelocity());
+    const Vector3d orbit = (places_[i].position - middle_).cross(linear);
+    const Vector3d spin = places_[i].inertia * ToVector(body.getAngularVelocity());
+    sum.linear += linear;
+    sum.angular += orbit + spin;
+    linear_size += linear.norm();
+    angular_size += orbit.norm() + spin.norm();
+  }
+  linear_size_ = std::max(linear_size_, linear_size);
+  angular_size_ = std::max(angular_size_, angular_size);
+  return sum;
+}
+
+void MomentumWatch::End(const World& world, double time_step) {
   const Momenta now = Sum(world);
   const Vector3d gravity = ToVector(world.bullet()->getGravity());
-  const Vector3d linear = Vector3d(start_) + now.mass * time * gravity, angular(start_ + 3);
-  linear_ = std::max(linear_, (now.linear - linear).norm());
-  angular_ = std::max(angular_, (now.angular - angular).norm());
-  linear_size_ = std::max(linear_size_, now.linear_size);
-  angular_size_ = std::max(angular_size_, now.angular_size);
+  linear_drift_ += now.linear - before_.linear - mass_ * time_step * gravity;
+  angular_drift_ += now.angular - before_.angular;
+  linear_ = std::max(linear_, linear_drift_.norm());
+  angular_ = std::max(angular_, angular_drift_.norm());
 }
 
 }  // namespace cairn::bench

@@ -30,6 +30,10 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
   kind_.draw(&draft);
   if (rules_.events) DrawEvents(&draft);
   Apply(rules_, &world_);
+  if (kind_.floats) {
+    // momentum is watched there, and only what solvers do to it
+    for (btRigidBody* body : world_.dynamic_bodies()) body->setFlags(0);
+  }
   events_ = std::move(draft.events());
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });

@@ -44,7 +44,7 @@ class Run {
       random_.world().solver_info().m_numIterations = variant.iterations;
     }
     if (cairn_ != nullptr) cairn_->settings().threads = options.threads;
-    if (random_.kind().floats) momentum_.emplace(random_.world());
+    if (random_.kind().floats) momentum_.emplace();
   }
 
   Trial Finish() {
@@ -72,6 +72,7 @@ class Run {
     if (frame == options_.record_frame && cairn_ != nullptr) {
       cairn_->RecordNext(options_.record_path, frame);
     }
+    if (momentum_) momentum_->Begin(random_.world());
     random_.Step();
     ++trial_.frames;
     const World& world = random_.world();
@@ -83,7 +84,7 @@ class Run {
     if (!(speed <= Trial::kTooFast) && trial_.wild_frame < 0) trial_.wild_frame = frame;
     hopeless_ = !(speed <= Trial::kHopeless);
     if (hopeless_) trial_.late_fastest = trial_.fastest;
-    if (momentum_) momentum_->Look(world, random_.time());
+    if (momentum_) momentum_->End(world, random_.time_step());
     if (random_.rules().sleeping && AnyAwake(world)) last_awake_ = random_.time();
     if (cairn_ != nullptr) Look(frame);
   }

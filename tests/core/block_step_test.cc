@@ -34,7 +34,9 @@ struct Blocks {
   Blocks(const Scene& of, std::vector<double> start, int threads = 1)
       : scene(of), crew(threads), x(std::move(start)), v(of.bodies.size()) {
     EXPECT_EQ(frame.Begin(scene.problem(), 1, {.rows = x}, &crew), PackResult::kDone);
-    islands.assign(frame.plan().islands().size(), {.taken = true, .proximal = kSettings.proximal, .proximal_joints = kSettings.proximal_joints});
+    islands.assign(frame.plan().islands().size(), {.taken = true,
+                                                   .proximal = kSettings.proximal,
+                                                   .proximal_joints = kSettings.proximal_joints});
   }
 
   template <class T>

@@ -120,7 +120,7 @@ TEST(Determinism, OfWorkBudgetsHolds) {
 }
 
 /// A scene and what 20 frames of it hash to. Not a truth: a way for machines and compilers to say
-/// whether they agree. Sweeps alone, as steps contain sums whose order is that of Eigen.
+/// whether they agree.
 struct Golden {
   std::string what;
   Scene scene;
@@ -134,6 +134,10 @@ TEST(Determinism, HoldsFromMachineToMachine) {
   relaxed.method = Method::kPsor;
   relaxed.omega = 1.2;
   converged.tolerance = 1e-3;
+  Settings as_it_comes, work = test::ColouredSteps(1000);
+  as_it_comes.max_sweeps = 10;
+  work.step_policy = StepPolicy::kMeasured;
+  work.budget = Budget::Work(40000);
   const std::vector<Golden> goldens = {
       {"tower", test::Tower(12), Coloured(8), 0xde01a482d26df530u},
       {"small heap", SmallHeap(), Coloured(8), 0x7b7f7965b0f89c43u},
@@ -143,6 +147,12 @@ TEST(Determinism, HoldsFromMachineToMachine) {
       {"large wall", LargeWall(), Coloured(8), 0xb060d56b7892b8dau},
       {"plate", test::Plate(60), Coloured(8), 0xcc53bf5fdcd7d745u},
       {"islands", ManyIslands(), converged, 0xd54544795bb8b00du},
+      {"tower, as it comes", test::Tower(12), as_it_comes, 1},
+      {"chain, as it comes", test::HangingChain(20, 50), as_it_comes, 1},
+      {"small heap, as it comes", SmallHeap(), as_it_comes, 1},
+      {"islands, as they come", ManyIslands(), as_it_comes, 1},
+      {"large wall, steps", LargeWall(), test::ColouredSteps(15), 1},
+      {"islands, work", ManyIslands(), work, 1},
   };
   for (const Golden& golden : goldens) {
     const std::uint64_t hash = test::HashOf(test::Play(golden.settings, golden.scene, kFrames));
