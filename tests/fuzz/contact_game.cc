@@ -58,7 +58,7 @@ class Judge {
   std::string OwnBounds(const GameWorld& after) const;
   bool FrictionBounds(const GameWorld& after) const;
   std::string Work(const Report& report) const;
-  /// Whether directions and bounces do not hang on a last digit.
+  /// Whether directions and bounces do not hang on a last digit, and residuals mean one thing.
   bool IsSteady() const;
   std::string Residual(GameWorld* after, const Report& report) const;
   /// What rounding of energies is relative to [sqrt(J)].
@@ -141,8 +141,8 @@ double Judge::LargestImpulse(const GameWorld& world) const {
 
 bool Judge::FrictionBounds(const GameWorld& after) const {
   if (!comparable_ || settings_.lifted_friction == LiftedFriction::kHold) return true;
-  // sweeps change impulses by differences, in floats
-  const double rounding = 1e-6 * std::max(LargestImpulse(before_), LargestImpulse(after));
+  // sweeps change impulses by differences, in floats, which end at 1e-45
+  const double rounding = 1e-6 * std::max({LargestImpulse(before_), LargestImpulse(after), 1e-34});
   const auto inside = [rounding](double x, double friction, double normal) {
     const double most = friction * std::max(0.0, normal);
     return std::abs(x) <= 1.00001 * most + (1 + friction) * rounding;
@@ -177,6 +177,8 @@ std::string Judge::Work(const Report& report) const {
 
 bool Judge::IsSteady() const {
   if (before_.law.bounce_speed > 0) return false;
+  // friction that is held outside its bounds between bodies that nothing moves: blocks count it
+  if (settings_.lifted_friction == LiftedFriction::kHold) return false;
   return std::all_of(before_.manifolds.begin(), before_.manifolds.end(),
                      [&](const Manifold& m) { return m.tangents == 0 && !m.twists; });
 }
