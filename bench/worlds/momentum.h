@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <vector>
 
 #include "scenes/world.h"
@@ -10,11 +11,15 @@ namespace cairn::bench {
 
 /// How far a solver lets momentum stray in a world without anything static: what velocities change
 /// by in each step, seen where the bodies were before it. What the integrator makes of bodies that
-/// turn does not count, nor does gravity. In double precision; angular momentum about the common
-/// centre of mass.
+/// turn does not count, nor does gravity. Of angular momentum the solver owes nothing that Bullet's
+/// rows take: a joint acts at two anchors, and where these have parted, its force turns the whole
+/// by at most force times gap. In double precision; angular momentum about the common centre of
+/// mass.
 /// @pre no body has gyroscopic terms
 class MomentumWatch {
  public:
+  /// Has the joints of the world say what they push with. The watch must outlive the world.
+  void Listen(World* world);
   /// To be called before each step, and after it. @param time_step  [s]
   void Begin(const World& world);
   void End(const World& world, double time_step);
@@ -38,6 +43,9 @@ class MomentumWatch {
   Momenta Sum(const World& world);
 
   std::vector<Place> places_;
+  std::deque<btJointFeedback> feedback_;  ///< one per joint
+  double gap_ = 0;                        ///< the largest before the step [m]
+  double owed_by_rows_ = 0;               ///< sum of force times gap [N m s]
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   double mass_ = 0;
   Momenta before_;

@@ -44,7 +44,7 @@ class Run {
       random_.world().solver_info().m_numIterations = variant.iterations;
     }
     if (cairn_ != nullptr) cairn_->settings().threads = options.threads;
-    if (random_.kind().floats) momentum_.emplace();
+    if (random_.kind().floats) momentum_.emplace().Listen(&random_.world());
   }
 
   Trial Finish() {
@@ -107,8 +107,8 @@ class Run {
   TrialOptions options_;
   std::unique_ptr<btConstraintSolver> solver_;
   bullet::ConstraintSolver* cairn_;
+  std::optional<MomentumWatch> momentum_;  ///< outlives the world, which writes to it
   RandomWorld random_;
-  std::optional<MomentumWatch> momentum_;
   Trial trial_;
   double last_awake_ = 0;
   bool hopeless_ = false;

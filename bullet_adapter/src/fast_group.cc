@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "fast_group.h"
 
+#include <utility>
+
 #include "cairn/prefetch.h"
 #include "write_back.h"
 
@@ -35,8 +37,9 @@ void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) 
 void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
                      const Options& options) {
   pushes_.Clear();
+  // the tension of a world says nothing of another one; its info is its own
+  if (std::exchange(world_, &info) != &info || !options.geometric_stiffness) stiffness_.Reset();
   bodies_.Begin(group.bodies, info, options.geometric_stiffness ? &stiffness_ : nullptr);
-  if (!options.geometric_stiffness) stiffness_.Reset();
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);

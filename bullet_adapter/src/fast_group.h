@@ -72,6 +72,7 @@ class FastGroup {
 
   BodyTable bodies_;
   GeometricStiffness stiffness_;
+  const btContactSolverInfo* world_ = nullptr;  ///< whose tension stiffness_ knows
   GroupProblem group_;
   ContactPoints contacts_;
   std::vector<ContactMotion> motions_;  ///< one per body, if joints or contacts want them

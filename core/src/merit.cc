@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace cairn {
 namespace {
@@ -24,8 +25,21 @@ double RoundedSigned(double number) {
   return number < 0 ? -simd::Rounded(-number) : simd::Rounded(number);
 }
 
-/// b'x and x'E x of a block, for each lane.
-void AddRows(const simd::PairBlock& block, const BlockData& data, double* gain, double* square) {
+/// Where 0 is outside the bounds of a row, the bit of its lane.
+std::uint32_t WithoutZero(const simd::RowShape& row, const simd::Line* bounds) {
+  if (row.bound != simd::RowBound::kOwn) return 0;
+  std::uint32_t without = 0;
+  for (int l = 0; l < kLanes; ++l) {
+    const bool zero = bounds[0].lane[l] <= 0 && bounds[1].lane[l] >= 0;
+    without |= zero ? 0 : std::uint32_t{1} << l;
+  }
+  return without;
+}
+
+/// b'x and x'E x of a block, for each lane. Returns WithoutZero() of its rows.
+std::uint32_t AddRows(const simd::PairBlock& block, const BlockData& data, double* gain,
+                      double* square) {
+  std::uint32_t without = 0;
   const simd::Line* line = data.data.data() + block.data + simd::PairLines(block.form);
   const simd::Line* const x = data.x.data() + block.x;
   for (int i = 0; i < block.row_count; ++i) {
@@ -41,8 +55,11 @@ void AddRows(const simd::PairBlock& block, const BlockData& data, double* gain, 
         square[l] += static_cast<double>(soft.lane[l]) * impulse * impulse;
       }
     }
+    const int laws = 2 + (row.soft ? 1 : 0) + (row.relaxed ? 1 : 0);
+    without |= WithoutZero(row, line + simd::JacobianLines(block.form) + laws);
     line += simd::RowLines(block.form, row);
   }
+  return without;
 }
 
 double SquareOf(const simd::BodyLane& body) {
@@ -58,7 +75,9 @@ void Scale(T factor, T* number) {
 
 }  // namespace
 
-bool Merit::is_worse_than_none() const { return !(gain >= (0.5 - kRounding) * square); }
+bool Merit::is_worse_than_none() const {
+  return may_be_none && !(gain >= (0.5 - kRounding) * square);
+}
 
 double Merit::best_scale() const {
   const double scale = gain / square;
@@ -75,6 +94,7 @@ Merit MeasureMerit(const PackedIsland& island, const IslandState& state) {
     const double x = state.x[i];
     merit.gain += row.target * x;
     merit.square += row.compliance * x * x;
+    merit.may_be_none = merit.may_be_none && row.lo <= 0 && row.hi >= 0;
   }
   return merit;
 }
@@ -109,9 +129,10 @@ void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
     double gain[kLanes] = {}, square[kLanes] = {};
-    AddRows(block, data, gain, square);
+    const std::uint32_t without = AddRows(block, data, gain, square);
     for (int l = 0; l < block.lanes; ++l) {
-      parts_.push_back({plan.island_of(b, l), {.square = square[l], .gain = gain[l]}});
+      const bool may_be_none = (without >> l & 1) == 0;
+      parts_.push_back({plan.island_of(b, l), {square[l], gain[l], may_be_none}});
     }
   }
   for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
@@ -138,6 +159,7 @@ void IslandMerits::Add(const Plan& plan, const Group& group) {
     Merit& sum = merits_[part.island];
     sum.square += simd::Rounded(part.merit.square * scale.square);
     sum.gain += RoundedSigned(part.merit.gain * scale.gain);
+    sum.may_be_none = sum.may_be_none && part.merit.may_be_none;
   }
   for (int i : islands) {
     merits_[i].square /= largest_[i].square;

@@ -19,8 +19,9 @@ namespace cairn {
 /// phi(x) + target'x - 1/2 x'E x more than before. So what is not above 0 puts in no more energy
 /// than its targets do; docs/solver.md derives a bound from the problem alone.
 struct Merit {
-  double square = 0;  ///< |u|^2 + x'E x [J]
-  double gain = 0;    ///< b'x [J]
+  double square = 0;        ///< |u|^2 + x'E x [J]
+  double gain = 0;          ///< b'x [J]
+  bool may_be_none = true;  ///< impulses of 0 are inside their bounds
 
   double value() const { return square / 2 - gain; }
   /// The impulses put in energy that nothing asks for: none at all would be better. Every state
@@ -52,6 +53,7 @@ inline bool IsTooMuch(double joint_speed) { return !(joint_speed <= 1e6); }
 /// sweeps wants the start, and friction that is held is no minimum of anything.
 bool IsGuarded(const Settings& settings);
 
+/// @pre the bounds hold
 Merit MeasureMerit(const PackedIsland& island, const IslandState& state);
 
 /// Multiplies impulses and velocity changes by a factor; 0 leaves nothing of what is not finite.

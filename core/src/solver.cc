@@ -184,8 +184,8 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
     fits = fits && IsResult(packer, islands[i], cycles[i].state(), island.residual, out.floats);
   }
   if (!fits) return false;
-  packer.WriteFreeVelocities(out.velocities);
   report->island_of.assign(problem.bodies.size(), -1);
+  packer.WriteFreeVelocities(out.velocities);
   for (size_t i = 0; i < islands.size(); ++i) {
     for (int body : islands[i].bodies) report->island_of[body] = static_cast<int>(i);
     const IslandState& state = cycles[i].state();

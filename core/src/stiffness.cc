@@ -66,12 +66,13 @@ void ShareAmongEqual(const Eigen::Vector3d& inv_moments, Eigen::Vector3d* k) {
 std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     double time_step, std::span<Body> bodies) {
   raised_.clear();
+  raised_.reserve(memories_.size());
   if (memories_.empty()) return raised_;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     Body& body = bodies[i];
-    const auto found = memories_.find(IslandMemories::KeyOf(body, i));
-    if (found == memories_.end() || found->second.inv_mass != body.inv_mass) continue;
-    Memory& memory = found->second;
+    Memory* const found = Find(IslandMemories::KeyOf(body, i));
+    if (found == nullptr || found->inv_mass != body.inv_mass) continue;
+    Memory& memory = *found;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inv_inertia);
     if (solver.info() != Eigen::Success) continue;
     const Eigen::Vector3d inv_moments = solver.eigenvalues().cwiseMax(0);
@@ -98,6 +99,13 @@ void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
     Eigen::Vector3d& spin = bodies[raised.body].velocity.angular;
     spin -= (raised.damping * spin).eval();
   }
+}
+
+GeometricStiffness::Memory* GeometricStiffness::Find(std::uint64_t key) {
+  const auto found = std::lower_bound(
+      memories_.begin(), memories_.end(), key,
+      [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
+  return found != memories_.end() && found->key == key ? &*found : nullptr;
 }
 
 void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
@@ -200,6 +208,8 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
   }
   island_of_ = report.island_of;
   FindAnchored(problem, report);
+  pulled_.reserve(bodies);
+  sums_.reserve(bodies);
   pulled_.clear();
   sums_.clear();
   place_.assign(bodies, -1);
@@ -210,11 +220,14 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
 
 void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies) {
   const double step2 = time_step * time_step;
-  for (auto& [key, memory] : memories_) memory.seen = false;
+  fresh_.clear();
+  fresh_.reserve(pulled_.size());
+  memories_.reserve(bodies.size());
+  for (Memory& memory : memories_) memory.seen = false;
   for (int i = 0; i < static_cast<int>(bodies.size()) && !memories_.empty(); ++i) {
-    const auto found = memories_.find(IslandMemories::KeyOf(bodies[i], i));
-    if (found == memories_.end()) continue;
-    Memory& memory = found->second;
+    Memory* const found = Find(IslandMemories::KeyOf(bodies[i], i));
+    if (found == nullptr) continue;
+    Memory& memory = *found;
     memory.seen = memory.inv_mass == bodies[i].inv_mass;
     memory.stiffness *= stepped_[i] != 0 ? 0 : kKeep;
   }
@@ -222,20 +235,27 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     const Body& body = bodies[pulled_[p]];
     const double inv_inertia = body.inv_inertia.trace();
     const std::uint64_t key = IslandMemories::KeyOf(body, pulled_[p]);
-    const auto found = memories_.find(key);
-    const bool known = found != memories_.end() && found->second.inv_mass == body.inv_mass;
+    Memory* memory = Find(key);
+    const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
     if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
-    Memory& memory = memories_[key];
     // one that is known may have been lowered
-    if (!known) memory = {.inv_mass = body.inv_mass, .inv_inertia = inv_inertia};
-    memory.stiffness += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * sums_[p];
-    memory.seen = true;
+    const Memory fresh{.key = key, .inv_mass = body.inv_mass, .inv_inertia = inv_inertia};
+    if (memory == nullptr) {
+      fresh_.push_back(fresh);
+      memory = &fresh_.back();
+    } else if (!known) {
+      *memory = fresh;
+    }
+    memory->stiffness += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * sums_[p];
+    memory->seen = true;
   }
-  std::erase_if(memories_, [step2](const auto& entry) {
-    const Memory& memory = entry.second;
+  std::erase_if(memories_, [step2](const Memory& memory) {
     const double most = std::max(Most(memory.stiffness), memory.held.maxCoeff());
     return !memory.seen || step2 * most * memory.inv_inertia < kRemember / 2;
   });
+  memories_.insert(memories_.end(), fresh_.begin(), fresh_.end());
+  std::sort(memories_.begin(), memories_.end(),
+            [](const Memory& a, const Memory& b) { return a.key < b.key; });
 }
 
 }  // namespace cairn

@@ -121,7 +121,8 @@ void ExpectBulletsOwnResult(std::string_view scene, int frames, const Change& ch
       const Outcome expected = SolveFrom(*substep, &bullet, info);
       const double difference = Difference(expected, SolveFrom(*substep, &cairn, info));
       if (difference <= kTolerance) return;
-      EXPECT_LE(difference, 2 * RoundingOfBullet(*substep, expected, info)) << "frame " << frame;
+      // velocities are made from the impulses in the end, which Bullet rounds at each sweep
+      EXPECT_LE(difference, 3 * RoundingOfBullet(*substep, expected, info)) << "frame " << frame;
     });
     world.Step(1);
   }

@@ -225,7 +225,7 @@ TEST(SimpleWorlds, FallAndLandAsWithBullet) {
 /// substep to the next, steps and joints keep more: here they are off.
 TEST(TwoWorlds, ThatShareASolverInTurnStayAsTheyAreAlone) {
   const Settings sweeps{.order = SweepOrder::kForward, .k_sm = 0};
-  const bullet::Options cold{.warm_start_joints = false};
+  const bullet::Options cold{.warm_start_joints = false, .geometric_stiffness = false};
   const auto alone = [&](std::string_view scene) {
     bullet::ConstraintSolver solver(sweeps, cold);
     SceneWorld world(scene, &solver);

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "cairn/contact_problem.h"
@@ -55,6 +54,7 @@ class GeometricStiffness {
  private:
   /// Of a body, by its id or place.
   struct Memory {
+    std::uint64_t key = 0;
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< K [N m], world axes
     Eigen::Vector3d held = Eigen::Vector3d::Zero();       ///< about principal axes [N m]
     double inv_mass = 0;                                  ///< who it is
@@ -68,7 +68,10 @@ class GeometricStiffness {
   void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void Remember(double time_step, std::span<const Body> bodies);
 
-  std::unordered_map<std::uint64_t, Memory> memories_;
+  Memory* Find(std::uint64_t key);
+
+  std::vector<Memory> memories_;  ///< by key, ascending
+  std::vector<Memory> fresh_;     ///< those that are new
   std::vector<Raised> raised_;
   std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
   std::vector<char> anchored_;         ///< by island: something of it touches what does not move
