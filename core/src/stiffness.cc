@@ -110,7 +110,8 @@ GeometricStiffness::Memory* GeometricStiffness::Find(std::uint64_t key) {
 
 void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
                              double time_step) {
-  if (body == kWorld || anchored_[island_of_[body]] == 0) return;
+  // what cannot move belongs to no island
+  if (body == kWorld || island_of_[body] < 0 || anchored_[island_of_[body]] == 0) return;
   if (place_[body] < 0) {
     place_[body] = static_cast<int>(pulled_.size());
     pulled_.push_back(body);

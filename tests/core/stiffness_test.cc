@@ -133,6 +133,18 @@ TEST(Stiffness, DampsTheSpinOfRaisedAxesALittle) {
   EXPECT_NEAR(scene.bodies[0].velocity.angular.z(), 1, 1e-6);
 }
 
+TEST(Stiffness, TakesBodiesThatCannotMoveForWhatTheyAre) {
+  // the chain hangs from a lift
+  Scene scene = test::HangingChain(3, 1000);
+  scene.bodies.push_back({});
+  for (int i = 0; i < 3; ++i) scene.rows[i].body_b = 3;
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  const std::vector<Body> raised = Raised(scene, &stiffness);
+  EXPECT_LT(raised[0].inv_inertia(0, 0), scene.bodies[0].inv_inertia(0, 0) / 2);
+  EXPECT_EQ(raised[3].inv_inertia, scene.bodies[3].inv_inertia);
+}
+
 // Nothing outside takes up what raised inertia keeps of an impulse.
 TEST(Stiffness, LeavesIslandsAloneThatNothingHolds) {
   Scene scene = test::HangingChain(3, 1000);
