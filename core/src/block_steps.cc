@@ -171,11 +171,11 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
   const auto chosen = [this](int i) { return (in_double_[i] != 0) == std::is_same_v<T, double>; };
   if (std::none_of(islands.begin(), islands.end(), chosen)) return;
   for (int i : islands) {
-    const StepSettings step = MemoryOf(i)->Step(*settings_);
+    const StepSettings own = MemoryOf(i)->Step(*settings_);
     islands_now_[i] = {.taken = chosen(i),
-                       .proximal = step.proximal,
-                       .proximal_joints = step.proximal_joints,
-                       .condense_joints = step.condense_joints};
+                       .proximal = own.proximal,
+                       .proximal_joints = own.proximal_joints,
+                       .condense_joints = own.condense_joints};
   }
   const StepSettings settings = {.proximal = settings_->proximal,
                                  .proximal_joints = settings_->proximal_joints,
