@@ -111,8 +111,9 @@ struct Settings {
   /// down to 1/4 of this, with a budget to 1/32.
   double proximal = 3e-3;
   /// The same on rows without bounds (joints), in [1e-12, 1]. Where joints are redundant, each step
-  /// adds impulses of what they contradict each other divided by it: 1e-8 made 100 times the
-  /// impulses of a bridge, which floats cannot hold against each other, 1e-6 none to speak of.
+  /// adds impulses of what they contradict each other divided by it, which floats cannot hold
+  /// against each other for long: there joints are condensed, and softened if that is not enough.
+  /// docs/solver.md, Guards.
   double proximal_joints = 1e-6;
   /// Solves with the last factor of a step at most, in [1, 1000]. Those after the first refine it
   /// while no row leaves its bounds; see docs/solver.md before raising it.

@@ -33,7 +33,7 @@ struct Options {
   /// The same for joints, from the substep before if this solver made it.
   bool warm_start_joints = true;
   /// Whether the inertia of bodies is raised whose joints pull too hard for the time step; see
-  /// cairn::GeometricStiffness. Mode::kFast, on islands where subspace steps are kept.
+  /// cairn::GeometricStiffness. Mode::kFast.
   bool geometric_stiffness = true;
 };
 
