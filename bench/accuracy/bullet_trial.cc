@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "cairn/bullet/group_rows.h"
-#include "cli/solver_clock.h"
+#include "contestants/solver_clock.h"
 #include "measure/row_recorder.h"
 
 namespace cairn::accuracy {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "accuracy/command.h"
 
-#include "cli/names.h"
+#include "support/names.h"
 
 namespace cairn::accuracy {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "cli/command.h"
-#include "cli/progress.h"
-#include "cli/scene_choice.h"
+#include "run/scene_choice.h"
+#include "support/command.h"
+#include "support/progress.h"
 
 namespace cairn::accuracy {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "cli/statistics.h"
+#include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {

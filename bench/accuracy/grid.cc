@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "cairn/contact_problem.h"
-#include "cli/statistics.h"
-#include "cli/watched_solver.h"
+#include "contestants/watched_solver.h"
+#include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {

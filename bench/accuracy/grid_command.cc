@@ -9,10 +9,10 @@
 #include "accuracy/grid.h"
 #include "accuracy/grid_output.h"
 #include "accuracy/report.h"
-#include "cli/command_line.h"
-#include "cli/failure.h"
-#include "cli/names.h"
-#include "cli/output_file.h"
+#include "support/command_line.h"
+#include "support/failure.h"
+#include "support/names.h"
+#include "support/output_file.h"
 
 namespace cairn::accuracy {
 namespace {

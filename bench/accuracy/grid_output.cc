@@ -8,9 +8,9 @@
 #include <string>
 
 #include "accuracy/report.h"
-#include "cli/json_number.h"
-#include "cli/statistics.h"
 #include "frames/markdown.h"
+#include "support/json_number.h"
+#include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {

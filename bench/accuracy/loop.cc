@@ -8,10 +8,10 @@
 #include <ratio>
 #include <utility>
 
-#include "cli/cairn_contestants.h"
-#include "cli/lane.h"
-#include "cli/solver_registry.h"
-#include "cli/statistics.h"
+#include "contestants/cairn_contestants.h"
+#include "contestants/lane.h"
+#include "contestants/solver_registry.h"
+#include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {

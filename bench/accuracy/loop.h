@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "accuracy/shadow.h"
-#include "cli/scene_choice.h"
+#include "run/scene_choice.h"
 
 namespace cairn::accuracy {
 

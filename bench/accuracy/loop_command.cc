@@ -11,11 +11,11 @@
 #include "accuracy/loop.h"
 #include "accuracy/loop_output.h"
 #include "accuracy/report.h"
-#include "cli/command_line.h"
-#include "cli/duration.h"
-#include "cli/failure.h"
-#include "cli/names.h"
-#include "cli/output_file.h"
+#include "support/command_line.h"
+#include "support/duration.h"
+#include "support/failure.h"
+#include "support/names.h"
+#include "support/output_file.h"
 
 namespace cairn::accuracy {
 namespace {

@@ -14,9 +14,9 @@
 #include "accuracy/intervals.h"
 #include "accuracy/paired_test.h"
 #include "accuracy/report.h"
-#include "cli/duration.h"
-#include "cli/json_number.h"
 #include "frames/markdown.h"
+#include "support/duration.h"
+#include "support/json_number.h"
 
 namespace cairn::accuracy {
 namespace {

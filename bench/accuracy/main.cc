@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "accuracy/command.h"
-#include "cli/command_line.h"
-#include "cli/failure.h"
-#include "cli/output_file.h"
+#include "support/command_line.h"
+#include "support/failure.h"
+#include "support/output_file.h"
 
 namespace cairn::accuracy {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/json_number.h"
-#include "cli/output_file.h"
+#include "support/json_number.h"
+#include "support/output_file.h"
 
 namespace cairn::accuracy {
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "cli/run_context.h"
 #include "measure/velocity_norm.h"
+#include "run/run_context.h"
 
 namespace cairn::accuracy {
 

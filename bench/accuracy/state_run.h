@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "cli/scene_choice.h"
 #include "measure/instrumented_solver.h"
 #include "measure/row_recorder.h"
 #include "rigid/contact_frame.h"
+#include "run/scene_choice.h"
 #include "scenes/scene.h"
 #include "scenes/world.h"
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "accuracy/state_run.h"
-#include "cli/sample_plan.h"
-#include "cli/statistics.h"
+#include "replay/sample_plan.h"
+#include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {

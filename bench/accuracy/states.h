@@ -9,9 +9,9 @@
 
 #include "accuracy/bullet_trial.h"
 #include "accuracy/shadow.h"
-#include "cli/scene_choice.h"
 #include "measure/converged.h"
 #include "measure/velocity_norm.h"
+#include "run/scene_choice.h"
 
 namespace cairn::accuracy {
 

@@ -6,9 +6,9 @@
 #include "accuracy/report.h"
 #include "accuracy/states.h"
 #include "accuracy/states_output.h"
-#include "cli/command_line.h"
-#include "cli/failure.h"
-#include "cli/output_file.h"
+#include "support/command_line.h"
+#include "support/failure.h"
+#include "support/output_file.h"
 
 namespace cairn::accuracy {
 namespace {

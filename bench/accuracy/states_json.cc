@@ -5,7 +5,7 @@
 #include "accuracy/goals.h"
 #include "accuracy/report.h"
 #include "accuracy/states_output.h"
-#include "cli/json_number.h"
+#include "support/json_number.h"
 
 namespace cairn::accuracy {
 namespace {

@@ -11,8 +11,8 @@
 #include "accuracy/frame_statistics.h"
 #include "accuracy/goals.h"
 #include "accuracy/report.h"
-#include "cli/statistics.h"
 #include "frames/markdown.h"
+#include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {

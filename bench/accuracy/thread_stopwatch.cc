@@ -3,7 +3,7 @@
 
 #include <sys/resource.h>
 
-#include "cli/solver_clock.h"
+#include "contestants/solver_clock.h"
 
 namespace cairn::accuracy {
 

@@ -9,10 +9,10 @@
 #include <cstdio>
 #include <span>
 
-#include "cli/statistics.h"
 #include "frames/frame_solver.h"
 #include "frames/markdown.h"
 #include "frames/size_series.h"
+#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {

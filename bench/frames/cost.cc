@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/statistics.h"
 #include "frames/frame_solver.h"
 #include "frames/markdown.h"
+#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "cli/build_info.h"
-#include "cli/machine.h"
+#include "support/build_info.h"
+#include "support/machine.h"
 
 namespace cairn::frames {
 

@@ -6,11 +6,11 @@
 
 #include <chrono>
 
-#include "cli/statistics.h"
 #include "frames/frame_solver.h"
 #include "frames/markdown.h"
 #include "frames/size_series.h"
 #include "measure/instrumented_solver.h"
+#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {

@@ -11,11 +11,11 @@
 #include <span>
 #include <utility>
 
-#include "cli/statistics.h"
 #include "frames/frame_solver.h"
 #include "frames/markdown.h"
 #include "frames/size_series.h"
 #include "measure/instrumented_solver.h"
+#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {

@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
-#include "cli/statistics.h"
 #include "frames/frame_solver.h"
 #include "frames/markdown.h"
+#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "block_frame.h"
-#include "crew.h"
 #include "micro/body_matrix.h"
+#include "pack/block_frame.h"
+#include "runtime/crew.h"
 #include "simd/pair_products.h"
-#include "subspace/block_system.h"
+#include "step/block_system.h"
 
 namespace cairn::micro {
 

@@ -18,12 +18,12 @@
 
 #include <benchmark/benchmark.h>
 
+#include "cholesky/front_cholesky.h"
 #include "micro/assembly.h"
 #include "micro/body_matrix.h"
 #include "micro/eigen_cholesky.h"
 #include "micro/multiply_add_peak.h"
 #include "simd/target.h"
-#include "subspace/front_cholesky.h"
 #if CAIRN_HAS_CHOLMOD
 #include "micro/cholmod_factor.h"
 #endif

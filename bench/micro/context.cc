@@ -8,9 +8,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "cli/build_info.h"
-#include "cli/machine.h"
 #include "simd/target.h"
+#include "support/build_info.h"
+#include "support/machine.h"
 
 namespace cairn::micro {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact_expansion.h"
-#include "islands.h"
+#include "problem/contact_expansion.h"
+#include "problem/islands.h"
 
 namespace cairn::bench {
 namespace {

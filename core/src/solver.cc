@@ -8,15 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "block_solver.h"
-#include "budget.h"
-#include "contact_expansion.h"
-#include "cycle.h"
-#include "islands.h"
-#include "lcp_solver.h"
-#include "pack.h"
-#include "residual.h"
-#include "validate.h"
+#include "core/lcp/lcp_solver.h"
+#include "cycle/block_solver.h"
+#include "problem/contact_expansion.h"
+#include "problem/islands.h"
+#include "problem/relaxation.h"
+#include "problem/validate.h"
+#include "reference/island_cycle.h"
+#include "reference/pack.h"
+#include "reference/residual.h"
+#include "runtime/budget.h"
 
 namespace cairn {
 namespace {

@@ -14,7 +14,7 @@
 #include "accuracy/loop.h"
 #include "accuracy/paired_test.h"
 #include "cairn/contact_problem.h"
-#include "cli/scene_choice.h"
+#include "run/scene_choice.h"
 
 namespace cairn::accuracy {
 namespace {

@@ -14,10 +14,10 @@
 #include "accuracy/shadow.h"
 #include "accuracy/state_run.h"
 #include "accuracy/states.h"
-#include "cli/scene_choice.h"
 #include "measure/converged.h"
 #include "measure/reference.h"
 #include "measure/velocity_norm.h"
+#include "run/scene_choice.h"
 
 namespace cairn::accuracy {
 namespace {

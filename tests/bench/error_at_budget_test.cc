@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/error_at_budget.h"
+#include "effort/error_at_budget.h"
 
 #include <gtest/gtest.h>
 

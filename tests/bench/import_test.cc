@@ -7,9 +7,9 @@
 #include <fstream>
 #include <string>
 
-#include "cli/failure.h"
-#include "cli/imported_scene.h"
+#include "contestants/imported_scene.h"
 #include "scenes/scene.h"
+#include "support/failure.h"
 
 namespace cairn::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/ratio.h"
+#include "compare/ratio.h"
 
 #include <gtest/gtest.h>
 

@@ -22,8 +22,8 @@
 #include "rigid/envelope_cholesky.h"
 #include "rigid/nearest_rows.h"
 #include "rigid/rigid_list.h"
-#include "tests/core/dense.h"
-#include "tests/core/problems.h"
+#include "tests/core/support/dense.h"
+#include "tests/core/support/problems.h"
 
 namespace cairn::bench {
 namespace {

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "cairn/bullet/constraint_solver.h"
-#include "cli/bullet_row_solver.h"
-#include "cli/cairn_row_solver.h"
-#include "cli/row_problem.h"
-#include "cli/row_solvers.h"
 #include "measure/reference.h"
 #include "measure/substep.h"
+#include "rows/bullet_row_solver.h"
+#include "rows/cairn_row_solver.h"
+#include "rows/row_problem.h"
+#include "rows/row_solvers.h"
 #include "tests/bullet_adapter/scene_world.h"
 #include "tests/simd/ask_for.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "bullet_adapter/src/conversions.h"
-#include "core/src/contact_expansion.h"
 #include "measure/instrumented_solver.h"
+#include "problem/contact_expansion.h"
 
 namespace cairn::test {
 namespace {

@@ -9,11 +9,28 @@ import tree
 INCLUDE_ROOTS = ("", "core/include", "core/src", "bullet_adapter/include", "bullet_adapter/src",
                  "bench")
 
+# Rooms of the core, in the order of a frame.
+BELOW_PLAN = ("core/include/", "simd/", "core/src/problem/", "core/src/runtime/")
+BELOW_SWEEP = BELOW_PLAN + ("core/src/plan/", "core/src/pack/")
+BELOW_STEP = BELOW_SWEEP + ("core/src/sweep/", "core/src/cholesky/")
+
 # Folder -> prefixes of our own files that it may include. The longest folder that fits a file counts.
 MAY_INCLUDE = {
     "simd": ("simd/",),
     "core/include": ("core/include/",),
+    "core/src/problem": ("core/include/", "simd/", "core/src/problem/"),
+    "core/src/runtime": ("core/include/", "core/src/runtime/"),
+    "core/src/plan": BELOW_PLAN + ("core/src/plan/",),
+    "core/src/pack": BELOW_PLAN + ("core/src/plan/", "core/src/pack/"),
+    "core/src/sweep": BELOW_SWEEP + ("core/src/sweep/",),
+    "core/src/cholesky": ("core/include/", "core/src/runtime/", "core/src/cholesky/", "simd/"),
+    "core/src/step": BELOW_STEP + ("core/src/step/",),
+    "core/src/cycle": BELOW_STEP + ("core/src/step/", "core/src/cycle/"),
+    # The double-precision path: the frame above never includes it.
+    "core/src/reference": BELOW_STEP + ("core/src/step/", "core/src/reference/"),
+    "core/src/recording": ("core/include/", "core/src/problem/", "core/src/recording/"),
     "core/src": ("core/", "simd/"),
+    "core/lcp": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/runtime/", "simd/"),
     "bullet_adapter/include": ("bullet_adapter/include/", "core/include/"),
     "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
     "bench": ("bench/", "bullet_adapter/include/", "core/include/", "simd/"),
@@ -26,15 +43,15 @@ MAY_INCLUDE = {
 # Third party -> what its headers look like, and the files that may include them (regular expressions).
 THIRD_PARTIES = {
     "Highway": (r"hwy/", r"(tests/)?simd/.*(\.cc|-inl\.h)$"),
-    "oneTBB": (r"(tbb|oneapi)/", r"core/src/executor_tbb"),
-    "Eigen's orderings": (r"Eigen/OrderingMethods$", r"core/src/subspace/minimum_degree\.|tests/"),
+    "oneTBB": (r"(tbb|oneapi)/", r"core/src/runtime/executor_tbb"),
+    "Eigen's orderings": (r"Eigen/OrderingMethods$", r"core/src/cholesky/minimum_degree\.|tests/"),
     "Eigen's sparse factorisations": (
         r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|.*Support|Iterative.*)$",
         r"bench/micro/eigen_cholesky\.|tests/"),
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
-    "Siconos": (r"siconos/", r"bench/cli/siconos_"),
+    "Siconos": (r"siconos/", r"bench/lcp/siconos_"),
     "CHOLMOD": (r"suitesparse/", r"bench/micro/cholmod_"),
     "Google Benchmark": (r"benchmark/", r"bench/micro/"),
     "test libraries": (r"(gtest|gmock|rapidcheck)(/|\.h)", r"tests/"),

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <sstream>
 
-#include "contact_expansion.h"
-#include "pack.h"
+#include "problem/contact_expansion.h"
+#include "reference/pack.h"
 #include "simd/target.h"
 #include "tests/simd/ask_for.h"
 

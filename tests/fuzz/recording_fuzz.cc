@@ -11,8 +11,8 @@
 
 #include "cairn/recording.h"
 #include "cairn/solver.h"
-#include "recording_format.h"
-#include "tests/core/recording_bytes.h"
+#include "recording/recording_format.h"
+#include "tests/core/support/recording_bytes.h"
 
 namespace {
 

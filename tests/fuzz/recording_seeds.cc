@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tests/core/recording_problems.h"
+#include "tests/core/support/recording_problems.h"
 
 int main(int count, char** arguments) {
   if (count != 2) {

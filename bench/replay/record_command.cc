@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "replay/record_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "CLI/CLI.hpp"
+#include "replay/record.h"
+#include "solve/solution_files.h"
+#include "support/command_line.h"
+#include "support/duration.h"
+#include "support/failure.h"
+
+namespace cairn::cli {
+namespace {
+
+/// What was typed behind the options of `cairn record`.
+struct RecordWords {
+  std::vector<std::string> scenes;
+  std::string frames, folder, solver = "cairn";
+  std::string budget, iterations, size, seed = "0";
+  OutputWords output;
+};
+
+constexpr long long kMostFrame = 1'000'000;
+
+constexpr const char* kRecordNotes =
+    R"(Writes what the solver was given in each of these frames, DIR/SCENE-000040.cairn: bodies, rows,
+contacts, the impulses it starts from and its settings. 'cairn solve DIR/*.cairn' solves them with any
+solver, on any machine. With a solver of Bullet's, the state is the one that solver made.
+
+The same files come of any program that uses Cairn in Bullet: CAIRN_RECORD=DIR, and
+CAIRN_RECORD_FRAMES=40,90 to choose frames. docs/recording.md has the format.
+
+Exit codes: 0 fine, 1 the solver failed, 2 usage, 3 a file cannot be written.)";
+
+RecordOptions Check(const RecordWords& words) {
+  RecordOptions options;
+  RunOptions& run = options.run;
+  run.seed = ParseCount("--seed", words.seed, 0, 1'000'000'000,
+                        "0: the scene as designed, else displaced by up to 0.1 mm");
+  run.scenes = ParseScenes(words.scenes, words.size, run.seed);
+  run.solvers = ParseSolvers(words.solver);
+  if (run.solvers.size() != 1) throw Failure(kUsage, "--solver: one solver makes the frames");
+  if (!words.budget.empty()) run.budget = ParseDuration("--budget", words.budget);
+  if (!words.iterations.empty()) {
+    run.iterations = ParseIterations("--iterations", words.iterations);
+  }
+  const bool fit = run.iterations.kind == IterationRule::Kind::kFit ||
+                   (run.solvers[0].own_iterations &&
+                    run.solvers[0].own_iterations->kind == IterationRule::Kind::kFit);
+  if (fit) throw Failure(kUsage, "iterations that fit a budget make other frames each time");
+  if (!options.frames.Parse(words.frames) || options.frames.last() > kMostFrame) {
+    throw Failure(kUsage, fmt::format("--frames '{}': write numbers from 0 to {}, such as 40,90 or "
+                                      "40-49,90",
+                                      words.frames, kMostFrame));
+  }
+  run.frames = static_cast<int>(options.frames.last()) + 1;
+  run.progress = ParseProgress(words.output);
+  options.folder = words.folder;
+  while (options.folder.size() > 1 && options.folder.back() == '/') options.folder.pop_back();
+  return options;
+}
+
+int DoRecord(const RecordWords& words) {
+  const RecordOptions options = Check(words);
+  CheckFolder(options.folder);
+  for (const RecordedFrame& frame : RecordScenes(options)) {
+    fmt::print("{}  {} bodies, {} rows of joints and others, {} contact points, {:.1f} kB\n",
+               frame.path, frame.bodies, frame.joint_rows, frame.points,
+               1e-3 * static_cast<double>(frame.bytes));
+  }
+  return kFine;
+}
+
+}  // namespace
+
+Command AddRecordCommand(CLI::App* app) {
+  const auto words = std::make_shared<RecordWords>();
+  CLI::App* const record =
+      app->add_subcommand("record", "Write what solvers are given in frames of scenes to files");
+  record->footer(kRecordNotes);
+  record->add_option("scene", words->scenes, "Scenes to play; 'all' for every one")
+      ->required()
+      ->type_name("SCENE...");
+  const auto add = [record](const char* name, std::string* word, const char* help,
+                            const char* type) { AddText(record, name, word, help, type); };
+  add("--frames", &words->frames, "Frames to write, counted from 0: 40,90 or 40-49", "N,N-M,...");
+  add("-o,--out", &words->folder, "Folder to write to; made if it is not there", "DIR");
+  record->get_option("--frames")->required();
+  record->get_option("--out")->required();
+  add("--solver", &words->solver, "Solver that makes the frames; default cairn", "S");
+  add("--budget", &words->budget, "Solver time for a frame, as for cairn run", "TIME");
+  add("--iterations", &words->iterations, "Iterations of the solver; default 10", "N");
+  add("--size", &words->size, "Size of the scene; see cairn list scenes", "N");
+  add("--seed", &words->seed,
+      "Displaces bodies by up to 0.1 mm, differently for each seed; default 0: none", "N");
+  AddOutputWords(record, &words->output);
+  return {record, [words](const std::string&) { return DoRecord(*words); }};
+}
+
+}  // namespace cairn::cli

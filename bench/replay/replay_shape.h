@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include "replay/replay.h"
+
+namespace cairn::cli {
+
+/// A shape without parts as it is drawn; its box of bounds where there is no picture of it.
+ReplayShape ToReplayShape(const btCollisionShape& shape);
+
+/// From the axis of a cylinder or capsule to y; and to the middle of what is drawn as its box.
+btTransform AxisOf(const btCollisionShape& shape);
+
+}  // namespace cairn::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "rows/cairn_row_solver.h"
+
+#include <limits>
+
+#include "lcp/cairn_lcp_solver.h"
+
+namespace cairn::cli {
+
+CairnRowSolver::CairnRowSolver(Method method, const LcpOptions& options)
+    : solver_(SettingsOf(method, options)) {}
+
+std::string CairnRowSolver::Prepare(const RowProblem& problem) {
+  solver_.Reset();
+  problem_ = &problem;
+  row_impulses_ = problem.frame.row_impulses;
+  point_impulses_ = problem.frame.point_impulses;
+  twist_impulses_ = problem.frame.twist_impulses;
+  joint_impulses_ = problem.frame.joint_impulses;
+  velocities_.resize(problem.frame.bodies.size());
+  return {};
+}
+
+void CairnRowSolver::IterateUntil(const RowLimit& limit) {
+  solver_.settings().max_sweeps = limit.iterations.value_or(std::numeric_limits<int>::max());
+  solver_.settings().budget = limit.time ? Budget::Time(*limit.time) : Budget::Unlimited();
+  solver_.Solve(problem_->frame.problem(), impulses(), velocities_, &report_);
+}
+
+RowOutcome CairnRowSolver::Result() {
+  RowOutcome outcome;
+  outcome.impulses = AllImpulses(problem_->frame.problem(), impulses());
+  outcome.velocities = velocities_;
+  outcome.iterations = report_.sweeps;
+  outcome.factorisations = report_.factorisations;
+  outcome.steps_accepted = report_.steps_accepted;
+  outcome.steps_restored = report_.steps_restored;
+  outcome.ended = report_.stop == StopReason::kConverged || report_.stop == StopReason::kStationary;
+  outcome.stop = Name(report_.stop);
+  if (!report_.ok()) outcome.failure = Describe(report_.status);
+  return outcome;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contestants/timeline.h"
+#include "effort/scaling.h"
+#include "replay/replay.h"
+#include "run/frame_facts.h"
+#include "run/run_context.h"
+#include "support/metronome.h"
+#include "tools/setup.h"
+
+namespace cairn::cli {
+
+/// The value of everything that was not measured.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+/// One frame of one solver.
+struct Frame {
+  double time = 0;  ///< In the solver, observing not counted [ms].
+  int iterations = 0;
+  double residual = kNotMeasured;  ///< Largest of all groups, on observed frames [m/s].
+  int steps_accepted = 0, steps_restored = 0, factorisations = 0;
+  int rows = 0, islands = 0;  ///< Given to the solver, on observed frames; 0 otherwise.
+  FrameFacts facts;           ///< With RunOptions::page.
+};
+
+/// What a solver reached with some effort on a sampled state.
+struct CurvePoint {
+  double time = 0;   ///< [ms]
+  double error = 0;  ///< Velocity error [m/s].
+  int iterations = 0, factorisations = 0;
+};
+
+/// A physical fact of a scene after the last frame.
+struct Fact {
+  std::string name, unit;
+  double value = kNotMeasured;
+};
+
+struct SolverFailure {
+  int frame = 0;
+  std::string reason;
+};
+
+/// One solver on one scene.
+struct SolverResult {
+  std::string label;
+  bool counts_iterations = true;             ///< False for a direct solver.
+  bool is_ours = false;                      ///< A solver of Cairn.
+  std::string effort;                        ///< "10 iterations", "2 ms": what it was told.
+  std::vector<Frame> frames;                 ///< Of the first repetition, as all that follows.
+  std::vector<std::vector<Frame>> repeated;  ///< Frames of the further repetitions.
+  /// For each sample [m/s]; NaN where the solver refused the state.
+  std::vector<double> velocity_errors;
+  std::optional<double> fallback_share;  ///< Calls it left to another solver, in [0, 1].
+  /// Of the first repetition that failed: its world was not stepped after this frame.
+  std::optional<SolverFailure> failure;
+  std::vector<Fact> facts;
+  std::optional<bool> standing;  ///< Only where the scene is something that can fall.
+  /// For each sample, from the least effort on; with RunOptions::page.
+  std::vector<std::vector<CurvePoint>> curves;
+  Replay replay;      ///< With RunOptions::page.
+  Timeline timeline;  ///< Of one frame, with RunOptions::timelines.
+};
+
+/// A state that every solver was given.
+struct Sample {
+  int frame = 0;
+  std::string source;             ///< Label of the solver in whose run it occurred.
+  double reference_residual = 0;  ///< What the converged reference left [m/s].
+};
+
+struct SceneResult {
+  std::string name, description;
+  int size = 0;
+  std::uint64_t seed = 0;
+  int bodies = 0, joints = 0;
+  double mass_ratio = kNotMeasured;  ///< Of the heaviest body and the lightest.
+  int observed_every = 1;            ///< The residual was measured in every k-th frame.
+  int warmup = 0;                    ///< The first frames, which do not count.
+  /// Of each repetition: the metronome after each frame.
+  std::vector<std::vector<Metronome::Beat>> beats;
+  bool bullet_has_zones = true;  ///< Bullet's profiler calls its hooks, as far as is known.
+  std::vector<Sample> samples;
+  std::vector<SolverResult> solvers;
+  /// Of the last frame of the first solver of Cairn; with RunOptions::page.
+  std::optional<Scaling> scaling;
+};
+
+/// Everything a run knows, for every form of output.
+struct RunResult : RunContext {
+  std::optional<std::chrono::nanoseconds> budget;
+  int frames = 0;  ///< asked for
+  int warmup = 0;  ///< of these
+  int repeat = 1;
+  Setup setup;
+  bool show_noise = false;
+  std::vector<SceneResult> scenes;
+
+  /// A solver of Cairn failed.
+  bool check_failed() const;
+};
+
+}  // namespace cairn::cli

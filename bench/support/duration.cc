@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#include "support/duration.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "support/failure.h"
+
+namespace cairn::cli {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double nanoseconds;
+};
+constexpr Unit kUnits[] = {{"s", 1e9}, {"ms", 1e6}, {"us", 1e3}, {"ns", 1}};
+constexpr double kMostNanoseconds = 60e9;
+
+[[noreturn]] void Refuse(std::string_view option, std::string_view text, std::string_view why) {
+  throw Failure(kUsage,
+                fmt::format("{} '{}': {}; write a time such as 2ms, 500us or 0.002s (more than 0, "
+                            "at most 60s)",
+                            option, text, why));
+}
+
+}  // namespace
+
+std::chrono::nanoseconds ParseDuration(std::string_view option, std::string_view text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{}) Refuse(option, text, "does not start with a number");
+  const std::string_view name(rest, end - rest);
+  if (name.empty()) Refuse(option, text, "has no unit");
+  for (const Unit& unit : kUnits) {
+    if (unit.name != name) continue;
+    const double nanoseconds = number * unit.nanoseconds;
+    if (!(nanoseconds >= 1)) Refuse(option, text, "is not more than 0");
+    if (!(nanoseconds <= kMostNanoseconds)) Refuse(option, text, "is too long");
+    return std::chrono::nanoseconds(std::llround(nanoseconds));
+  }
+  Refuse(option, text, fmt::format("'{}' is not one of the units s, ms, us, ns", name));
+}
+
+std::string FormatDuration(std::chrono::nanoseconds time) {
+  const double nanoseconds = static_cast<double>(time.count());
+  for (const Unit& unit : kUnits) {
+    if (nanoseconds >= unit.nanoseconds) {
+      return fmt::format("{:g} {}", nanoseconds / unit.nanoseconds, unit.name);
+    }
+  }
+  return "0 s";
+}
+
+double Milliseconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double, std::milli>(time).count();
+}
+
+}  // namespace cairn::cli

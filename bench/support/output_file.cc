@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "support/output_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <span>
+#include <system_error>
+
+#include "cairn/whole_file.h"
+#include "support/failure.h"
+
+namespace cairn::cli {
+namespace {
+
+void RefuseIf(const std::error_code& error, const std::string& path) {
+  if (!error) return;
+  throw Failure(kBadInput, fmt::format("cannot write '{}': {}", path, error.message()));
+}
+
+}  // namespace
+
+void CheckWritable(const std::string& path) { RefuseIf(TryWholeFile(path), path); }
+
+void WriteFile(const std::string& path, const std::string& text) {
+  RefuseIf(WriteWholeFile(path, std::as_bytes(std::span(text))), path);
+}
+
+void FinishOutput() {
+  errno = 0;
+  // what was printed earlier may have failed, and then nothing is left to be flushed
+  const bool before = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) == 0 && !before) return;
+  throw Failure(kBadInput, fmt::format("cannot write the output: {}",
+                                       errno != 0 ? std::strerror(errno) : "some of it is lost"));
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "tools/list.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "contestants/solver_registry.h"
+#include "lcp/lcp_solvers.h"
+#include "rows/row_solvers.h"
+#include "run/scene_choice.h"
+#include "solve/problem_choice.h"
+
+namespace cairn::cli {
+
+void ListScenes(ListForm form) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const bench::SceneInfo& scene : bench::Scenes()) {
+    if (form == ListForm::kText) {
+      fmt::print("{:<14} {}; size {} ({} to {} {})\n", scene.name, scene.description,
+                 scene.default_size, scene.min_size, scene.max_size, scene.size_means);
+    }
+    json.push_back({{"name", scene.name},
+                    {"description", scene.description},
+                    {"size_means", scene.size_means},
+                    {"default_size", scene.default_size},
+                    {"min_size", scene.min_size},
+                    {"max_size", scene.max_size}});
+  }
+  if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+}
+
+void ListProblems(ListForm form) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const problems::Generator& generator : KnownGenerators()) {
+    if (form == ListForm::kText) {
+      fmt::print("{:<18} {}; size {} ({} to {} {})\n", generator.name, generator.help,
+                 generator.size, generator.min_size, generator.max_size, generator.size_help);
+    }
+    nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+    for (const problems::Parameter& parameter : generator.parameters) {
+      if (form == ListForm::kText) {
+        fmt::print("  {:<16} {}; {:g} ({:g} to {:g})\n", parameter.name, parameter.help,
+                   parameter.value, parameter.min, parameter.max);
+      }
+      parameters.push_back({{"name", parameter.name},
+                            {"description", parameter.help},
+                            {"default", parameter.value},
+                            {"min", parameter.min},
+                            {"max", parameter.max}});
+    }
+    json.push_back({{"name", generator.name},
+                    {"description", generator.help},
+                    {"size_means", generator.size_help},
+                    {"default_size", generator.size},
+                    {"min_size", generator.min_size},
+                    {"max_size", generator.max_size},
+                    {"parameters", parameters}});
+  }
+  if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+}
+
+void ListSolvers(ListForm form) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  const auto add = [&](const auto& solvers, std::string_view command, std::string_view takes) {
+    for (const auto& solver : solvers) {
+      if (form == ListForm::kText) {
+        fmt::print("{:<21} {:<6} {:<9} {}\n", solver.name, command, takes, solver.description);
+      }
+      json.push_back({{"name", solver.name},
+                      {"command", command},
+                      {"takes", takes},
+                      {"description", solver.description}});
+    }
+  };
+  add(Solvers(), "run", "worlds");
+  add(LcpSolvers(), "solve", "matrices");
+  add(RowSolvers(), "solve", "frames");
+  if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// The cairn tool: its command line. What the commands do is in the files of their names.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "CLI/CLI.hpp"
+#include "campaign/worlds_command.h"
+#include "compare/compare_command.h"
+#include "replay/record_command.h"
+#include "run/run_command.h"
+#include "solve/solve_command.h"
+#include "support/command.h"
+#include "support/command_line.h"
+#include "support/failure.h"
+#include "support/names.h"
+#include "support/output_file.h"
+#include "tools/doctor.h"
+#include "tools/list.h"
+#include "tools/precision.h"
+
+namespace cairn::cli {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+/// CLI11 leaves what it does not know to us, so that the answer can name the nearest option.
+void RefuseUnknown(const CLI::App& command) {
+  const Arguments unknown = command.remaining();
+  if (unknown.empty()) return;
+  Arguments names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  const std::string word = unknown.front().substr(0, unknown.front().find('='));
+  if (!word.starts_with("-") || names.empty()) {
+    throw Failure(kUsage, fmt::format("'{}' is not expected here; see 'cairn {} --help'", word,
+                                      command.get_name()));
+  }
+  throw Failure(kUsage, fmt::format("unknown option '{}': did you mean '{}'? 'cairn {} --help' "
+                                    "shows all",
+                                    word, Nearest(word, names), command.get_name()));
+}
+
+int RefuseSyntax(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // help or version was asked for
+  throw Failure(kUsage, error.what());
+}
+
+Command AddDoctor(CLI::App* app) {
+  struct Words {
+    std::string json;
+    bool only_bullet = false;
+  };
+  const auto words = std::make_shared<Words>();
+  CLI::App* const doctor = app->add_subcommand(
+      "doctor", "Look at this machine and this build, and how far timings can be trusted (1 s)");
+  AddText(doctor, "--json", &words->json, "Write the same as JSON", "FILE");
+  doctor->add_flag("--bullet", words->only_bullet, "Only the Bullet that this program runs with");
+  return {doctor, [words](const std::string&) {
+            words->only_bullet ? DoctorBullet() : Doctor(words->json);
+            return kFine;
+          }};
+}
+
+Command AddList(CLI::App* app) {
+  struct Words {
+    std::string what;
+    bool json = false;
+  };
+  const auto words = std::make_shared<Words>();
+  CLI::App* const list = app->add_subcommand("list", "List scenes, problems or solvers");
+  list->add_option("what", words->what, "scenes, problems or solvers")
+      ->required()
+      ->type_name("WHAT");
+  list->add_flag("--json", words->json, "As JSON");
+  return {list, [words](const std::string&) {
+            const Arguments kinds = {"scenes", "problems", "solvers"};
+            void (*const lists[])(ListForm) = {&ListScenes, &ListProblems, &ListSolvers};
+            const size_t kind =
+                FindName("list", words->what, kinds, "write scenes, problems or solvers");
+            lists[kind](words->json ? ListForm::kJson : ListForm::kText);
+            return kFine;
+          }};
+}
+
+int Main(Arguments arguments) {
+  const std::string precision = TakePrecision(&arguments);
+  const Arguments typed = arguments;
+  if (!precision.empty() && precision != OwnPrecision()) ContinueAs(precision, arguments);
+
+  CLI::App app("Cairn: constraint solvers for game physics under a frame budget, measured.",
+               "cairn");
+  app.set_version_flag("--version", CAIRN_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "--float64, or --precision float64, with any command: with Bullet in double precision.\n"
+      "'cairn COMMAND --help' says more. First tries: cairn run tower --budget 2ms,\n"
+      "cairn solve journal-bearing");
+  const Command commands[] = {
+      AddDoctor(&app),        AddList(&app),         AddRunCommand(&app),   AddCompareCommand(&app),
+      AddRecordCommand(&app), AddSolveCommand(&app), AddWorldsCommand(&app)};
+  Arguments names;
+  for (const Command& command : commands) {
+    command.app->allow_extras();
+    names.push_back(command.app->get_name());
+  }
+  CompleteCommand(names, &arguments);
+  try {
+    app.parse(Arguments(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    return RefuseSyntax(app, error);
+  }
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    RefuseUnknown(*command.app);
+    return command.action(WithoutPaths("cairn", typed));
+  }
+  return kUsage;
+}
+
+}  // namespace
+}  // namespace cairn::cli
+
+int main(int count, char** arguments) {
+  try {
+    const int code = cairn::cli::Main({arguments + 1, arguments + count});
+    cairn::cli::FinishOutput();
+    return code;
+  } catch (const cairn::cli::Failure& failure) {
+    fmt::print(stderr, "cairn: {}\n", failure.what());
+    return failure.code();
+  } catch (const std::exception& error) {
+    // a full disk behind stdout, or no memory
+    fmt::print(stderr, "cairn: {}\n", error.what());
+    return cairn::cli::kBadInput;
+  }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "cycle/block_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "problem/relaxation.h"
+
+namespace cairn {
+namespace {
+
+/// Problems of fewer rows stay on one thread: waiting for another would cost more than it does.
+constexpr size_t kParallelRows = 4096;
+
+/// Sums of energy are not finite if a term is not.
+bool AreFinite(std::span<const IslandReport> islands) {
+  return std::all_of(islands.begin(), islands.end(), [](const IslandReport& island) {
+    return std::isfinite(island.residual.energy);
+  });
+}
+
+/// Keeps helpers awake while it lives.
+class Shift {
+ public:
+  explicit Shift(Crew* crew) : crew_(crew) { crew_->Call(); }
+  ~Shift() { crew_->Dismiss(); }
+  Shift(const Shift&) = delete;
+  Shift& operator=(const Shift&) = delete;
+
+ private:
+  Crew* crew_;
+};
+
+}  // namespace
+
+PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
+                              BudgetMeter* meter, const Impulses& impulses,
+                              std::span<Velocity> velocities, Report* report) {
+  crew_.Follow(settings);
+  const size_t rows = AllRows(problem);
+  Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
+  crew->RecordTo(settings.spans);
+  const Shift shift(crew);
+  const PackResult begun = Begin(problem, settings, impulses, crew);
+  if (begun != PackResult::kDone) return begun;
+  cycle_.Run(problem, settings, &frame_, &memories_, meter, crew, report);
+  if (!frame_.IsFinite() || !AreFinite(report->islands)) {
+    // nothing that came of it is to be remembered
+    cycle_ = {};
+    memories_ = {};
+    report->islands.clear();
+    return PackResult::kOutOfRange;
+  }
+  const SpanClock clock(settings.spans, 0, {SpanKind::kResults});
+  frame_.End(problem, crew, impulses, velocities);
+  return PackResult::kDone;
+}
+
+PackResult BlockSolver::Begin(const ContactProblem& problem, const Settings& settings,
+                              const Impulses& impulses, Crew* crew) {
+  const SpanClock clock(settings.spans, 0, {SpanKind::kSetUp});
+  return frame_.Begin(problem, OmegaOf(settings), impulses, crew);
+}
+
+}  // namespace cairn

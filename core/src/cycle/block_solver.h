@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "cairn/contact_problem.h"
+#include "cairn/report.h"
+#include "cairn/settings.h"
+#include "cycle/block_cycle.h"
+#include "pack/block_frame.h"
+#include "runtime/budget.h"
+#include "runtime/crew.h"
+#include "step/island_memories.h"
+
+namespace cairn {
+
+/// Solves contact problems on kernels, in floats, colour by colour, on threads.
+class BlockSolver {
+ public:
+  /// kDone: solved, and the islands of the report are filled in. Otherwise nothing is written: on
+  /// kChanged the input is not valid, on kOutOfRange floats do not do.
+  [[nodiscard]] PackResult Solve(const ContactProblem& problem, const Settings& settings,
+                                 BudgetMeter* meter, const Impulses& impulses,
+                                 std::span<Velocity> velocities, Report* report);
+  IslandMemories& memories() { return memories_; }
+
+ private:
+  PackResult Begin(const ContactProblem& problem, const Settings& settings,
+                   const Impulses& impulses, Crew* crew);
+
+  BlockFrame frame_;
+  BlockCycle cycle_;
+  IslandMemories memories_;
+  Crew crew_{1}, alone_{1};
+};
+
+}  // namespace cairn

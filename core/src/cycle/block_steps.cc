@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "cycle/block_steps.h"
+
+#include <algorithm>
+#include <type_traits>
+
+namespace cairn {
+namespace {
+
+// Relaxations of rows by kernels per piece of a step, fitted to timings of all scenes (AVX2, within
+// a tenth). What a relaxation takes in steps is learnt on every machine: WorkPrices::step_ns.
+struct StepPrices {
+  double line;       ///< once, per line of impulses: reading, predicting, writing
+  double line_pass;  ///< per line and factorisation: weights, assembly, a solve
+  double refine;     ///< per line and further solve
+  double flops;      ///< per multiply-add of a factorisation
+  double entry;      ///< per entry of the factor and solve
+  double body;       ///< per body and factorisation
+};
+constexpr StepPrices kFloatPrices = {110, 100, 65, 0.014, 1.9, 240};
+constexpr StepPrices kDoublePrices = {230, 125, 80, 0.025, 2.2, 300};
+/// The same as IslandMemory::kLeastSoftening with a budget, which mostly has more sweeps. Floats
+/// know nothing of what is smaller.
+constexpr double kLeastSofteningOfBudget = 1.0 / 32;
+/// By what the first step of a frame is thought to divide the residual before one was measured,
+/// as logarithms: medians over scenes of contacts, and over bridges and chains.
+constexpr double kContactsCut = 2.4, kJointsCut = 6.4;
+/// Per body and pair of bodies, where their graph is new.
+constexpr double kAnalyse = 300;
+/// Per row and factorisation, where there was none before; that of most scenes is 30 to 60.
+constexpr double kUnknownRow = 40;
+
+}  // namespace
+
+void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
+                       IslandMemories* memories, BudgetMeter* meter, Crew* crew, bool asked) {
+  problem_ = &problem;
+  settings_ = &settings;
+  frame_ = frame;
+  memories_ = memories;
+  meter_ = meter;
+  crew_ = crew;
+  asked_ = asked;
+  has_budget_ = settings.budget.kind() != Budget::Kind::kUnlimited || settings.replay != nullptr;
+  if (!asked_) return;
+  const Plan& plan = frame->plan();
+  memory_of_island_.assign(plan.islands().size(), nullptr);
+  islands_.assign(plan.islands().size(), {});
+  islands_now_.assign(plan.islands().size(), {});
+  work_.assign(plan.islands().size(), 0);
+  limits_.assign(plan.groups().size(), settings.k_sm);
+  if (float_step_ == nullptr) {
+    float_step_ = std::make_unique<BlockStep<float>>(frame->target());
+    double_step_ = std::make_unique<BlockStep<double>>(frame->target());
+  }
+  if (plan_number_ != frame->plan_number()) ReadPlan();
+}
+
+void BlockSteps::ReadPlan() {
+  const Plan& plan = frame_->plan();
+  plan_number_ = frame_->plan_number();
+  in_double_.assign(plan.islands().size(), 0);
+  keys_.assign(plan.islands().size(), ~std::uint64_t{0});
+  for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    const bool joints =
+        std::any_of(block.rows, block.rows + block.row_count,
+                    [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
+    for (int lane = 0; lane < block.lanes && joints; ++lane)
+      in_double_[plan.island_of(b, lane)] = 1;
+  }
+  for (int body : plan.body_of_slot()) {
+    if (body == kWorld) continue;
+    std::uint64_t& key = keys_[plan.island_of_body()[body]];
+    key = std::min(key, IslandMemories::KeyOf(problem_->bodies[body], body));
+  }
+}
+
+IslandMemory* BlockSteps::MemoryOf(int island) {
+  IslandMemory*& memory = memory_of_island_[island];
+  if (memory == nullptr) {
+    memory = memories_->Recall(keys_[island], frame_->plan().islands()[island].first_body);
+    memory->odds().Expect(in_double_[island] != 0 ? kJointsCut : kContactsCut);
+  }
+  return memory;
+}
+
+bool BlockSteps::Due(int island) { return MemoryOf(island)->Due(*settings_); }
+
+template <class T>
+BlockSystem<T>& BlockSteps::SystemOf(int group) {
+  const Plan& plan = frame_->plan();
+  const int first = plan.islands_of_groups()[plan.groups()[group].first_island];
+  return MemoryOf(first)->block_system<T>(frame_->target());
+}
+
+template <class Function>
+void BlockSteps::ForSystems(int group, std::span<const int> islands, const Function& function) {
+  const Precisions precisions = PrecisionsOf(islands);
+  if (precisions.some_double) function(SystemOf<double>(group));
+  if (!precisions.all_double) function(SystemOf<float>(group));
+}
+
+double BlockSteps::Guess(int group, std::span<const int> islands) {
+  bool known = true;
+  ForSystems(group, islands, [&](const auto& system) {
+    known = known && system.IsPreparedFor(frame_->plan_number(), group);
+  });
+  if (known) return 0;
+  // graphs change, but rarely what a step on them takes
+  const double last = MemoryOf(islands[0])->price_of_row();
+  return (last > 0 ? last : kUnknownRow) * static_cast<double>(frame_->plan().groups()[group].rows);
+}
+
+BlockSteps::AnalysisPrice BlockSteps::PriceOfAnalysis(int group, std::span<const int> islands) {
+  AnalysisPrice price;
+  ForSystems(group, islands, [&](auto& system) {
+    if (system.Recognise(frame_->plan(), frame_->plan_number(), group)) return;
+    const double whole = kAnalyse * system.graph_size();
+    price.whole += whole;
+    price.of_step += whole / system.steps_of_analysis();
+  });
+  return price;
+}
+
+void BlockSteps::Analyse(int group, std::span<const int> islands) {
+  ForSystems(group, islands, [&](auto& system) {
+    if (system.Recognise(frame_->plan(), frame_->plan_number(), group)) return;
+    meter_->Begin();
+    system.Analyse(frame_->plan());
+    meter_->Charge(WorkKind::kAnalysis, kAnalyse * system.graph_size());
+  });
+}
+
+BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) const {
+  const auto is_double = [this](int i) { return in_double_[i] != 0; };
+  const bool some = std::any_of(islands.begin(), islands.end(), is_double);
+  return {some, some && std::all_of(islands.begin(), islands.end(), is_double)};
+}
+
+double BlockSteps::Price(int group, std::span<const int> islands, int factorisations) {
+  const Precisions precisions = PrecisionsOf(islands);
+  const bool condense = std::any_of(islands.begin(), islands.end(),
+                                    [this](int i) { return MemoryOf(i)->condenses_joints(); });
+  if (condense) ++factorisations;
+  const double price = (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
+                       (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
+  const double rows = static_cast<double>(frame_->plan().groups()[group].rows);
+  MemoryOf(islands[0])->RememberPrice(price / (factorisations * rows));
+  return price;
+}
+
+template <class T>
+double BlockSteps::PriceOf(int group, int factorisations) {
+  const StepPrices& prices = std::is_same_v<T, double> ? kDoublePrices : kFloatPrices;
+  const BlockSystem<T>& system = SystemOf<T>(group);
+  const double lines = frame_->plan().groups()[group].x_lines;
+  const double factorise = prices.line_pass * lines + prices.flops * system.flops() +
+                           prices.entry * system.nonzeros() + prices.body * system.nodes();
+  const double refine = prices.refine * lines + prices.entry * system.nonzeros();
+  return prices.line * lines + factorisations * factorise + (settings_->refinements - 1) * refine;
+}
+
+void BlockSteps::Take(int group, std::span<const int> islands) {
+  TakeAs(group, islands, double_step_.get());
+  TakeAs(group, islands, float_step_.get());
+}
+
+template <class T>
+void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* step) {
+  const auto chosen = [this](int i) { return (in_double_[i] != 0) == std::is_same_v<T, double>; };
+  if (std::none_of(islands.begin(), islands.end(), chosen)) return;
+  for (int i : islands) {
+    const StepSettings own = MemoryOf(i)->Step(*settings_);
+    islands_now_[i] = {.taken = chosen(i),
+                       .proximal = own.proximal,
+                       .proximal_joints = own.proximal_joints,
+                       .condense_joints = own.condense_joints};
+  }
+  const StepSettings settings = {.proximal = settings_->proximal,
+                                 .proximal_joints = settings_->proximal_joints,
+                                 .factorisations = limits_[group],
+                                 .refinements = settings_->refinements};
+  BlockSystem<T>& system = SystemOf<T>(group);
+  meter_->Begin();
+  const SpanClock clock(settings_->spans, 0, {SpanKind::kStep, group});
+  const int made =
+      step->Take(frame_->plan(), group, settings, &system, crew_, &frame_->blocks(), islands_now_);
+  const double price = PriceOf<T>(group, made);
+  meter_->Charge(WorkKind::kStep, price);
+  system.CountStep();
+  double rows = 0;
+  for (int i : islands) rows += chosen(i) ? frame_->plan().islands()[i].rows : 0;
+  for (int i : islands) {
+    if (chosen(i)) {
+      islands_[i] = islands_now_[i];
+      MemoryOf(i)->SawJoints(islands_[i].result);
+      work_[i] = price * frame_->plan().islands()[i].rows / rows;
+    }
+    islands_now_[i].taken = false;
+  }
+}
+
+void BlockSteps::Judge(int island, bool accepted) {
+  if (accepted) {
+    MemoryOf(island)->Accepted(has_budget_ ? kLeastSofteningOfBudget
+                                           : IslandMemory::kLeastSoftening);
+  } else {
+    MemoryOf(island)->Restored();
+  }
+}
+
+}  // namespace cairn

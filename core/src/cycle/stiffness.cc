@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/stiffness.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "step/island_memories.h"
+
+namespace cairn {
+namespace {
+
+/// h^2 k / I up to which nothing is raised; the integrator is stable up to 4.
+constexpr double kThreshold = 2;
+/// Of what was needed, what is still held a step later: tension flips from step to step.
+constexpr double kHold = 0.9;
+/// Of spin, damped on axes that are raised without end; without it they gain a little energy.
+constexpr double kDamping = 0.02;
+/// Bodies that are this much below the threshold are not remembered.
+constexpr double kRemember = 0.5;
+/// What the mean of tensions that sweeps alone left keeps of itself in a step.
+constexpr double kKeep = 0.9;
+/// Moments of inertia that are this close have no axes of their own.
+constexpr double kSameMoment = 1e-3;
+
+constexpr double kUnit = 1e-3;  // how far directions of a joint may be from unit length, squared
+
+/// No stiffness about an axis is larger.
+double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
+
+/// The three linear parts are unit vectors at right angles to each other.
+bool AreAxes(const Eigen::Matrix3d& linear) {
+  return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kUnit;
+}
+
+/// The arm r of three rows l_i . v + (r x l_i) . omega.
+Eigen::Vector3d ArmOf(const Eigen::Matrix3d& linear, const Eigen::Matrix3d& angular) {
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) arm += 0.5 * linear.col(i).cross(angular.col(i));
+  return arm;
+}
+
+/// Stiffness about each principal axis, at least what K turns by (Gershgorin).
+Eigen::Vector3d AboutAxes(const Eigen::Matrix3d& stiffness, const Eigen::Matrix3d& axes) {
+  const Eigen::Matrix3d local = axes.transpose() * stiffness * axes;
+  Eigen::Vector3d result;
+  for (int i = 0; i < 3; ++i) {
+    double sum = local(i, i);
+    for (int j = 0; j < 3; ++j) sum += i == j ? 0 : std::abs(local(i, j));
+    result[i] = std::max(0.0, sum);
+  }
+  return result;
+}
+
+/// Axes of equal moments turn with rounding: they share what any of them needs.
+void ShareAmongEqual(const Eigen::Vector3d& inv_moments, Eigen::Vector3d* k) {
+  for (int i = 0; i < 2; ++i) {
+    if (inv_moments[i + 1] - inv_moments[i] > kSameMoment * inv_moments[i + 1]) continue;
+    (*k)[i] = (*k)[i + 1] = std::max((*k)[i], (*k)[i + 1]);
+  }
+  if (inv_moments[1] - inv_moments[0] <= kSameMoment * inv_moments[1]) (*k)[0] = (*k)[1];
+}
+
+}  // namespace
+
+std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
+    double time_step, std::span<Body> bodies) {
+  raised_.clear();
+  raised_.reserve(memories_.size());
+  if (memories_.empty()) return raised_;
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    Body& body = bodies[i];
+    Memory* const found = Find(IslandMemories::KeyOf(body, i));
+    if (found == nullptr || found->inv_mass != body.inv_mass) continue;
+    Memory& memory = *found;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inv_inertia);
+    if (solver.info() != Eigen::Success) continue;
+    const Eigen::Vector3d inv_moments = solver.eigenvalues().cwiseMax(0);
+    const Eigen::Matrix3d& axes = solver.eigenvectors();
+    Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * memory.held);
+    ShareAmongEqual(inv_moments, &k);
+    memory.held = k;
+
+    const Eigen::Vector3d ratio = time_step * time_step * k.cwiseProduct(inv_moments);
+    if (ratio.maxCoeff() <= kThreshold) continue;
+    const Eigen::Vector3d kept =
+        (1 + (ratio.array() - kThreshold).max(0)).inverse().matrix();  // I / raised I
+    const Eigen::Vector3d damping = kDamping * (1 - kept.array()).matrix();
+    body.inv_inertia = axes * inv_moments.cwiseProduct(kept).asDiagonal() * axes.transpose();
+    body.inv_inertia = (0.5 * (body.inv_inertia + body.inv_inertia.transpose())).eval();
+    raised_.push_back({i, axes * damping.asDiagonal() * axes.transpose(),
+                       axes * kept.asDiagonal() * axes.transpose()});
+  }
+  return raised_;
+}
+
+void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
+  for (const Raised& raised : RaiseInertia(time_step, bodies)) {
+    Eigen::Vector3d& spin = bodies[raised.body].velocity.angular;
+    spin -= (raised.damping * spin).eval();
+  }
+}
+
+GeometricStiffness::Memory* GeometricStiffness::Find(std::uint64_t key) {
+  const auto found = std::lower_bound(
+      memories_.begin(), memories_.end(), key,
+      [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
+  return found != memories_.end() && found->key == key ? &*found : nullptr;
+}
+
+void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
+                             double time_step) {
+  // what cannot move belongs to no island
+  if (body == kWorld || island_of_[body] < 0 || anchored_[island_of_[body]] == 0) return;
+  if (place_[body] < 0) {
+    place_[body] = static_cast<int>(pulled_.size());
+    pulled_.push_back(body);
+    sums_.push_back(Eigen::Matrix3d::Zero());
+  }
+  const Eigen::Vector3d force = impulse / time_step;
+  sums_[place_[body]] += force.dot(arm) * Eigen::Matrix3d::Identity() -
+                         0.5 * (arm * force.transpose() + force * arm.transpose());
+}
+
+void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
+  anchored_.assign(report.islands.size(), 0);
+  const auto moves = [&](int body) { return body != kWorld && problem.bodies[body].inv_mass > 0; };
+  const auto look = [&](const auto& between) {
+    if (moves(between.body_a) == moves(between.body_b)) return;
+    const int body = moves(between.body_a) ? between.body_a : between.body_b;
+    if (report.island_of[body] >= 0) anchored_[report.island_of[body]] = 1;
+  };
+  for (const Joint& joint : problem.joints) look(joint);
+  for (const Row& row : problem.rows) look(row);
+  for (const Manifold& manifold : problem.manifolds) look(manifold);
+}
+
+void GeometricStiffness::AddJoints(double time_step, const ContactProblem& problem,
+                                   const Impulses& impulses) {
+  const auto vector = [](const float(&from)[3]) {
+    return Eigen::Vector3d(from[0], from[1], from[2]);
+  };
+  for (const Joint& joint : problem.joints) {
+    for (int row = 0; row + 3 <= joint.rows;) {
+      const JointRow* const rows = &problem.joint_rows[joint.first_row + row];
+      Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
+      bool free = true;
+      for (int k = 0; k < 3; ++k) {
+        free = free && !joint.is_bounded(row + k);
+        linear_a.col(k) = vector(rows[k].linear_a);
+        angular_a.col(k) = vector(rows[k].angular_a);
+        linear_b.col(k) = vector(rows[k].linear_b);
+        angular_b.col(k) = vector(rows[k].angular_b);
+      }
+      const Eigen::Matrix3d& known = joint.body_a != kWorld ? linear_a : linear_b;
+      if (!free || !AreAxes(known)) {
+        ++row;
+        continue;
+      }
+      const float* const x = &impulses.joint_rows[joint.first_row + row];
+      const Eigen::Vector3d lambda(x[0], x[1], x[2]);
+      Add(joint.body_a, ArmOf(linear_a, angular_a), linear_a * lambda, time_step);
+      Add(joint.body_b, ArmOf(linear_b, angular_b), linear_b * lambda, time_step);
+      row += 3;
+    }
+  }
+}
+
+void GeometricStiffness::AddRows(double time_step, const ContactProblem& problem,
+                                 const Impulses& impulses) {
+  const auto joins = [](const Row& row, const Row& first) {
+    return row.parent == kNoRow && row.lo == -kInfinity && row.hi == kInfinity &&
+           row.body_a == first.body_a && row.body_b == first.body_b;
+  };
+  for (size_t i = 0; i + 3 <= problem.rows.size();) {
+    const Row* const rows = &problem.rows[i];
+    Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
+    bool joint = true;
+    for (int k = 0; k < 3 && joint; ++k) {
+      joint = joins(rows[k], rows[0]);
+      linear_a.col(k) = rows[k].linear_a;
+      angular_a.col(k) = rows[k].angular_a;
+      linear_b.col(k) = rows[k].linear_b;
+      angular_b.col(k) = rows[k].angular_b;
+    }
+    if (!joint || !AreAxes(rows[0].body_a != kWorld ? linear_a : linear_b)) {
+      ++i;
+      continue;
+    }
+    const Eigen::Vector3d lambda(impulses.rows[i], impulses.rows[i + 1], impulses.rows[i + 2]);
+    Add(rows[0].body_a, ArmOf(linear_a, angular_a), linear_a * lambda, time_step);
+    Add(rows[0].body_b, ArmOf(linear_b, angular_b), linear_b * lambda, time_step);
+    i += 3;
+  }
+}
+
+void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
+                               const Impulses& impulses, const Report& report) {
+  const size_t bodies = problem.bodies.size();
+  const bool jointed = !problem.joints.empty() || !problem.rows.empty();
+  if ((memories_.empty() && !jointed) || !report.ok() || !(time_step > 0) ||
+      report.island_of.size() != bodies) {
+    return;
+  }
+  stepped_.assign(bodies, 0);
+  for (size_t i = 0; i < bodies; ++i) {
+    const int island = report.island_of[i];
+    stepped_[i] = island >= 0 && report.islands[island].steps_accepted > 0 ? 1 : 0;
+  }
+  island_of_ = report.island_of;
+  FindAnchored(problem, report);
+  pulled_.reserve(bodies);
+  sums_.reserve(bodies);
+  pulled_.clear();
+  sums_.clear();
+  place_.assign(bodies, -1);
+  AddJoints(time_step, problem, impulses);
+  AddRows(time_step, problem, impulses);
+  Remember(time_step, problem.bodies);
+}
+
+void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies) {
+  const double step2 = time_step * time_step;
+  fresh_.clear();
+  fresh_.reserve(pulled_.size());
+  memories_.reserve(bodies.size());
+  for (Memory& memory : memories_) memory.seen = false;
+  for (int i = 0; i < static_cast<int>(bodies.size()) && !memories_.empty(); ++i) {
+    Memory* const found = Find(IslandMemories::KeyOf(bodies[i], i));
+    if (found == nullptr) continue;
+    Memory& memory = *found;
+    memory.seen = memory.inv_mass == bodies[i].inv_mass;
+    memory.stiffness *= stepped_[i] != 0 ? 0 : kKeep;
+  }
+  for (size_t p = 0; p < pulled_.size(); ++p) {
+    const Body& body = bodies[pulled_[p]];
+    const double inv_inertia = body.inv_inertia.trace();
+    const std::uint64_t key = IslandMemories::KeyOf(body, pulled_[p]);
+    Memory* memory = Find(key);
+    const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
+    if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
+    // one that is known may have been lowered
+    const Memory fresh{.key = key, .inv_mass = body.inv_mass, .inv_inertia = inv_inertia};
+    if (memory == nullptr) {
+      fresh_.push_back(fresh);
+      memory = &fresh_.back();
+    } else if (!known) {
+      *memory = fresh;
+    }
+    memory->stiffness += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * sums_[p];
+    memory->seen = true;
+  }
+  std::erase_if(memories_, [step2](const Memory& memory) {
+    const double most = std::max(Most(memory.stiffness), memory.held.maxCoeff());
+    return !memory.seen || step2 * most * memory.inv_inertia < kRemember / 2;
+  });
+  memories_.insert(memories_.end(), fresh_.begin(), fresh_.end());
+  std::sort(memories_.begin(), memories_.end(),
+            [](const Memory& a, const Memory& b) { return a.key < b.key; });
+}
+
+}  // namespace cairn

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+#include "pack/block_frame.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+
+#include "pack/manifold_pack.h"
+#include "problem/validate.h"
+
+namespace cairn {
+namespace {
+
+/// Bodies that one thread whitens, or writes back, at a time.
+constexpr int kBodiesOfUnit = 256;
+/// Rows whose laws one thread reads at a time.
+constexpr int kRowsOfUnit = 1024;
+
+constexpr int kNumbersOfBody = sizeof(simd::BodyLane) / sizeof(float);
+constexpr int kNumbersOfMotion = sizeof(ContactMotion) / sizeof(float);
+
+/// Looks at many groups of so many numbers for what is infinite, or none: zero times that is not
+/// zero. One sum for each place, so that all of a group are added at once.
+template <int kCount>
+class Finiteness {
+ public:
+  void See(const float* numbers) {
+    for (int i = 0; i < kCount; ++i) zeros_[i] += 0 * numbers[i];
+  }
+  bool all() const {
+    return std::all_of(zeros_, zeros_ + kCount, [](float zero) { return zero == 0; });
+  }
+
+ private:
+  float zeros_[kCount] = {};
+};
+
+/// One stage of units that are all alike.
+template <class Function>
+class Parts final : public StagedWork {
+ public:
+  Parts(int units, const Function& function) : units_(units), function_(function) {}
+  int stages() const override { return 1; }
+  int units(int) const override { return units_; }
+  void Do(int, int unit) override { function_(unit); }
+
+ private:
+  int units_;
+  const Function& function_;
+};
+
+/// function(first, count) for all parts of a range.
+template <class Function>
+void InParts(int size, int of_part, Crew* crew, const Function& function) {
+  const auto part = [&](int unit) {
+    const int first = unit * of_part;
+    function(first, std::min(of_part, size - first));
+  };
+  Parts parts((size + of_part - 1) / of_part, part);
+  crew->Run(&parts);
+}
+
+/// The whole plan, stage by stage, with one kernel.
+class Pass final : public StagedWork {
+ public:
+  Pass(BlockFrame* frame, simd::PairKernels::Kernel kernel) : frame_(frame), kernel_(kernel) {}
+  int stages() const override { return static_cast<int>(frame_->plan().stages().size()); }
+  int units(int stage) const override { return frame_->plan().stages()[stage].units; }
+  void Do(int stage, int unit) override {
+    const Plan& plan = frame_->plan();
+    const Unit& of = plan.units()[plan.stages()[stage].first_unit + unit];
+    kernel_(frame_->WorkOn(of.first_block, of.blocks));
+  }
+
+ private:
+  BlockFrame* frame_;
+  simd::PairKernels::Kernel kernel_;
+};
+
+/// The worst of what several threads found.
+class WorstResult {
+ public:
+  void Add(PackResult result) {
+    int worst = worst_.load(std::memory_order_relaxed);
+    const int now = static_cast<int>(result);
+    while (now > worst && !worst_.compare_exchange_weak(worst, now)) continue;
+  }
+  PackResult get() const { return static_cast<PackResult>(worst_.load(std::memory_order_relaxed)); }
+
+ private:
+  std::atomic<int> worst_{static_cast<int>(PackResult::kDone)};
+};
+
+/// Floats hold its velocity and what it does to rows. Smaller masses than that would be none.
+bool FitsFloats(const Body& given, const WhitenedBody& body) {
+  constexpr double kMostVelocity = 1e18, kMost = 1e15, kLeast = 1e-15;
+  const auto fits = [](double of_mass, double least, double most) {
+    return (of_mass == 0) | ((of_mass >= least) & (of_mass <= most));
+  };
+  // one by one, none waits for another; comparisons with what is not a number are false
+  bool all = fits(given.inv_inertia.trace(), kLeast * kLeast, kMost * kMost);
+  for (int k = 0; k < 3; ++k) {
+    all &= fits(body.linear[k], kLeast, kMost) & (std::abs(body.free.linear[k]) <= kMostVelocity) &
+           (std::abs(body.free.angular[k]) <= kMostVelocity) &
+           (std::abs(given.velocity.linear[k]) <= kMostVelocity) &
+           (std::abs(given.velocity.angular[k]) <= kMostVelocity);
+  }
+  return all;
+}
+
+}  // namespace
+
+simd::PairWork BlockFrame::WorkOn(int first_block, int blocks) {
+  return {.blocks = plan_.blocks().data() + first_block,
+          .count = blocks,
+          .data = blocks_.data.data(),
+          .x = blocks_.x.data(),
+          .bodies = blocks_.bodies.data(),
+          .errors = errors_.data() + first_block};
+}
+
+BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
+  return {.problem = problem,
+          .plan = plan_,
+          .movable = movable_,
+          .bodies = bodies_,
+          .contact_bodies = contact_bodies_,
+          .omega = omega_,
+          .pack_row = pack_row_,
+          .pack_joints = pack_joints_,
+          .contacts = *contact_kernels_};
+}
+
+bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem) const {
+  // where their rows and points are is not part of the plan
+  const auto same = [](const auto& a, const auto& b) {
+    return a.body_a == b.body_a && a.body_b == b.body_b && HasLawOf(a, b);
+  };
+  return std::ranges::equal(problem.joints, planned_joints_, same) &&
+         std::ranges::equal(problem.manifolds, planned_manifolds_, same);
+}
+
+PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const Impulses& impulses,
+                             Crew* crew) {
+  const PackResult whitened = WhitenBodies(problem, crew);
+  if (whitened != PackResult::kDone) return whitened;
+  if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kChanged;
+  for (int i = 0; i < static_cast<int>(problem.joints.size()); ++i) {
+    if (ValidateJoint(problem, i) != Status::kOk) return PackResult::kChanged;
+  }
+  for (int i = 0; i < static_cast<int>(problem.manifolds.size()); ++i) {
+    if (ValidateManifold(problem, i) != Status::kOk) return PackResult::kChanged;
+  }
+
+  // the plan of the last frame, if nothing began or ended
+  PackResult result = PackResult::kChanged;
+  const bool alike = planned_ && omega == omega_ && problem.rows.size() == planned_rows_ &&
+                     movable_now_ == movable_ && SameJointsAndManifolds(problem);
+  if (alike) result = Pack(problem, impulses, crew);
+  if (result == PackResult::kChanged) {
+    planned_ = MakePlan(problem, omega, impulses.rows, crew);
+    if (!planned_) return PackResult::kChanged;
+    PackerOf(problem).Reserve(&blocks_);
+    if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
+    if (scales_.size() < plan_.islands().size()) scales_.resize(plan_.islands().size());
+    result = Pack(problem, impulses, crew);
+  }
+  if (result == PackResult::kDone) Start(crew);
+  return result;
+}
+
+bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
+                          std::span<const double> impulses, Crew* crew) {
+  movable_.swap(movable_now_);
+  omega_ = omega;
+  planned_rows_ = problem.rows.size();
+  planned_joints_.assign(problem.joints.begin(), problem.joints.end());
+  planned_manifolds_.assign(problem.manifolds.begin(), problem.manifolds.end());
+  ++plan_number_;
+  laws_.resize(planned_rows_);
+  std::atomic<bool> valid{true};
+  InParts(static_cast<int>(planned_rows_), kRowsOfUnit, crew, [&](int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      if (ReadLaw(problem, i, impulses[i], omega, &laws_[i])) continue;
+      valid.store(false, std::memory_order_relaxed);
+    }
+  });
+  return valid && plan_.Make(problem, laws_, movable_);
+}
+
+PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
+  const std::span<const Body> bodies = problem.bodies;
+  const bool contacts = !problem.manifolds.empty() || !problem.joints.empty();
+  if (contacts) contact_bodies_.resize(bodies.size());
+  bodies_.resize(bodies.size());
+  movable_now_.resize(bodies.size());
+  WorstResult worst;
+  InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
+    Finiteness<kNumbersOfMotion> motions;
+    for (int i = first; i < first + count; ++i) {
+      movable_now_[i] = MobilityOf(bodies[i]);
+      if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kChanged);
+      if (!FitsFloats(bodies[i], bodies_[i])) worst.Add(PackResult::kOutOfRange);
+      if (!contacts) continue;
+      const ContactMotion* const motion = problem.motions.empty() ? nullptr : &problem.motions[i];
+      contact_bodies_[i] = ContactBodyOf(bodies[i], bodies_[i], motion);
+      if (motion != nullptr) motions.See(reinterpret_cast<const float*>(motion));
+    }
+    if (!motions.all()) worst.Add(PackResult::kOutOfRange);
+  });
+  return worst.get();
+}
+
+PackResult BlockFrame::Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew) {
+  const BlockPacker packer = PackerOf(problem);
+  WorstResult worst;
+  const auto pack = [&](int unit) {
+    const Unit& of = plan_.units()[unit];
+    if (worst.get() != PackResult::kDone) return;
+    worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
+  };
+  Parts parts(static_cast<int>(plan_.units().size()), pack);
+  crew->Run(&parts);
+  return worst.get();
+}
+
+void BlockFrame::Start(Crew* crew) {
+  std::memset(static_cast<void*>(blocks_.bodies.data()), 0,
+              plan_.body_of_slot().size() * sizeof(simd::BodyLane));
+  Pass pass(this, kernels_->start);
+  crew->Run(&pass);
+}
+
+bool BlockFrame::IsFinite() const {
+  // an impulse that is not finite has pushed a body
+  Finiteness<kNumbersOfBody> velocities;
+  for (size_t slot = 0; slot < plan_.body_of_slot().size(); ++slot) {
+    velocities.See(blocks_.bodies[slot].u);
+  }
+  return velocities.all();
+}
+
+void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,
+                     std::span<Velocity> velocities) const {
+  const BlockPacker packer = PackerOf(problem);
+  const auto write = [&](int unit) {
+    const Unit& of = plan_.units()[unit];
+    packer.WriteImpulses(of.first_block, of.blocks, blocks_, impulses);
+  };
+  Parts parts(static_cast<int>(plan_.units().size()), write);
+  crew->Run(&parts);
+  InParts(static_cast<int>(problem.bodies.size()), kBodiesOfUnit, crew,
+          [&](int first, int count) { packer.WriteVelocities(first, count, blocks_, velocities); });
+}
+
+}  // namespace cairn

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include "pack/block_pack.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "cairn/prefetch.h"
+#include "pack/joint_pack.h"
+#include "pack/manifold_pack.h"
+#include "plan/row_law.h"
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+using simd::Line;
+using simd::PairForm;
+using simd::RowBound;
+using simd::RowShape;
+
+/// Impulses and friction coefficients beyond this are left to double precision.
+constexpr double kMost = 1e12;
+
+const WhitenedBody kNoBody;
+
+/// J of what is not there.
+constexpr double kNothing[6] = {};
+
+/// The two sides of a row are six numbers each, in the order of SourceRows.
+static_assert(offsetof(Row, angular_a) == offsetof(Row, linear_a) + 3 * sizeof(double));
+static_assert(offsetof(Row, angular_b) == offsetof(Row, linear_b) + 3 * sizeof(double));
+
+/// The row still joins the bodies that it was planned for.
+bool Joins(const Row& row, const Pair& pair, const MovableBodies& movable) {
+  const auto is = [&movable](int body, int planned) {
+    if (planned != kWorld) return body == planned;
+    return body == kWorld ||
+           (body >= 0 && body < static_cast<int>(movable.size()) && movable[body] == kUnmoved);
+  };
+  const bool same = row.body_a != row.body_b || row.body_a == kWorld;
+  return same && ((is(row.body_a, pair.a) && is(row.body_b, pair.b)) ||
+                  (is(row.body_b, pair.a) && is(row.body_a, pair.b)));
+}
+
+float Bound(double value) {
+  constexpr double kMostFloat = std::numeric_limits<float>::max();
+  if (value > kMostFloat) return std::numeric_limits<float>::infinity();
+  if (value < -kMostFloat) return -std::numeric_limits<float>::infinity();
+  return static_cast<float>(value);
+}
+
+/// x inside its bounds, all lanes; @p b: the bounds of the row as the kernel has them.
+void Clamp(RowBound bound, const Line* b, const Line* parent, Line* x) {
+  const auto clamp = [x](const auto& lo, const auto& hi) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      x->lane[lane] = std::min(std::max(x->lane[lane], lo(lane)), hi(lane));
+    }
+  };
+  const auto most = [b, parent](int lane) {
+    return b[0].lane[lane] * std::max(parent->lane[lane], 0.0f);
+  };
+  switch (bound) {
+    case RowBound::kFree:
+      return;
+    case RowBound::kPush:
+      for (float& number : x->lane) number = std::max(number, 0.0f);
+      return;
+    case RowBound::kOwn:
+      return clamp([b](int lane) { return b[0].lane[lane]; },
+                   [b](int lane) { return b[1].lane[lane]; });
+    case RowBound::kFriction:
+      return clamp([&](int lane) { return -most(lane); }, most);
+    case RowBound::kCutFriction:
+      return clamp([&](int lane) { return std::max(-most(lane), b[1].lane[lane]); },
+                   [&](int lane) { return std::min(most(lane), b[2].lane[lane]); });
+  }
+}
+
+/// Kernels add changes to impulses, and round both, so that what is small after what was large may
+/// be outside by a unit of the large one.
+double InsideOwnBounds(double x, const Row& row) { return std::min(std::max(x, row.lo), row.hi); }
+
+void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
+  for (int k = 0; k < 3; ++k) {
+    lines->linear[k].lane[lane] = body.linear[k];
+    lines->velocity[k].lane[lane] = body.free.linear[k];
+    lines->velocity[3 + k].lane[lane] = body.free.angular[k];
+  }
+  for (int k = 0; k < 9; ++k) lines->angular[k].lane[lane] = body.angular.data()[k];
+}
+
+std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+/// The law that most rows have, compared by its bits: checking every field of every row for itself
+/// costs more than packing them.
+class UsualLaw {
+ public:
+  UsualLaw(PairForm form, const RowShape& shape, double omega)
+      : exists_(!shape.soft && !shape.relaxed && omega == 1 && shape.bound != RowBound::kOwn &&
+                shape.bound != RowBound::kCutFriction),
+        opposite_(form == PairForm::kContact),
+        angular_(shape.angular),
+        lo_(Bits(shape.bound == RowBound::kPush ? 0 : -kInfinity)),
+        max_sweeps_(shape.max_sweeps) {}
+
+  bool exists() const { return exists_; }
+  /// The row has it, and acts between these bodies. False says nothing.
+  bool Fits(const Row& row, const Pair& pair, int parent) const {
+    const int integers = (row.body_a ^ pair.row_a) | (row.body_b ^ pair.row_b) |
+                         (row.parent ^ parent) | (row.max_sweeps ^ max_sweeps_);
+    const std::uint64_t law = (Bits(row.lo) ^ lo_) | (Bits(row.hi) ^ Bits(kInfinity)) |
+                              (Bits(row.relaxation) ^ Bits(1)) | Bits(row.compliance);
+    const bool same = (static_cast<std::uint32_t>(integers) | law) == 0;
+    // negative numbers and those that are not finite have larger bits
+    return exists_ && same && Bits(row.friction) < Bits(kInfinity) && HasLinearPart(row);
+  }
+
+ private:
+  bool HasLinearPart(const Row& row) const {
+    const Eigen::Vector3d &a = row.linear_a, &b = row.linear_b;
+    const std::uint64_t any = Bits(a[0]) | Bits(a[1]) | Bits(a[2]);
+    if (angular_) return ((any | Bits(b[0]) | Bits(b[1]) | Bits(b[2])) << 1) == 0;
+    const std::uint64_t sum =
+        (Bits(a[0]) ^ Bits(-b[0])) | (Bits(a[1]) ^ Bits(-b[1])) | (Bits(a[2]) ^ Bits(-b[2]));
+    return (any << 1) != 0 && (!opposite_ || sum == 0);
+  }
+
+  bool exists_, opposite_, angular_;
+  std::uint64_t lo_;
+  int max_sweeps_;
+};
+
+/// Fills one block, row by row.
+class OneBlock {
+ public:
+  OneBlock(const BlockPacker& packer, int index, BlockData* blocks)
+      : packer_(packer),
+        block_(packer.plan.blocks()[index]),
+        line_(blocks->data.data() + block_.data),
+        x_(blocks->x.data() + block_.x) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      source_.a[lane] = source_.b[lane] = kNothing;
+      source_.target.lane[lane] = source_.compliance.lane[lane] = 0;
+      source_.relaxation.lane[lane] = unit_.lane[lane] = 1;
+      if (lane < block_.lanes) pairs_[lane] = &packer.plan.pair(index, lane);
+    }
+  }
+
+  PackResult Pack(std::span<const double> impulses) {
+    PutBodies();
+    for (int i = 0; i < block_.row_count; ++i) {
+      const RowShape& shape = block_.rows[i];
+      if (!ReadRows(i, shape)) return PackResult::kChanged;
+      if (!packer_.pack_row(block_.form, source_, a_, b_, line_)) return PackResult::kOutOfRange;
+      line_ += simd::JacobianLines(block_.form) + 2;
+      PutLaw(shape);
+      const PackResult result = PutImpulses(i, shape, impulses);
+      if (result != PackResult::kDone) return result;
+      line_ += simd::BoundLines(shape.bound);
+    }
+    return PackResult::kDone;
+  }
+
+ private:
+  void PutBodies() {
+    for (int lane = 0; lane < block_.lanes; ++lane) {
+      const Pair& pair = *pairs_[lane];
+      rows_[lane] = packer_.plan.rows_of(pair).data();
+      Prefetch(&packer_.problem.rows[rows_[lane][0]], sizeof(Row));
+      Put(pair.a != kWorld ? packer_.bodies[pair.a] : kNoBody, lane, &a_);
+      if (block_.form != PairForm::kSingle) Put(packer_.bodies[pair.b], lane, &b_);
+    }
+    for (int lane = block_.lanes; lane < kLanes; ++lane) {
+      Put(kNoBody, lane, &a_);
+      Put(kNoBody, lane, &b_);
+    }
+    if (block_.form != PairForm::kContact) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      line_[0].lane[lane] = static_cast<float>(a_.linear[0].lane[lane]);
+      line_[1].lane[lane] = static_cast<float>(b_.linear[0].lane[lane]);
+    }
+    line_ += simd::PairLines(block_.form);
+  }
+
+  /// Row @p i of every lane; false if one is not as planned.
+  bool ReadRows(int i, const RowShape& shape) {
+    const UsualLaw usual(block_.form, shape, packer_.omega);
+    const bool last = i + 1 == block_.row_count;
+    bool as_planned = true;
+    for (int lane = 0; lane < block_.lanes; ++lane) {
+      const Row& row = packer_.problem.rows[rows_[lane][i]];
+      if (!last) Prefetch(&packer_.problem.rows[rows_[lane][i + 1]], sizeof(Row));
+      const Pair& pair = *pairs_[lane];
+      const int parent = shape.parent >= 0 ? rows_[lane][shape.parent] : kNoRow;
+      as_planned = as_planned && (usual.Fits(row, pair, parent) || Fits(row, pair, parent, shape));
+
+      const bool straight = row.body_a == pair.a;
+      source_.a[lane] = (straight ? row.linear_a : row.linear_b).data();
+      source_.b[lane] = (straight ? row.linear_b : row.linear_a).data();
+      source_.target.lane[lane] = row.target;
+      if (block_.form == PairForm::kSingle) {
+        source_.target.lane[lane] -= VelocityOfUnmoved(row.body_a, pair, row.linear_a) +
+                                     VelocityOfUnmoved(row.body_b, pair, row.linear_b);
+      }
+      bounds_.friction.lane[lane] = row.friction;
+    }
+    if (as_planned && !usual.exists()) ReadUnusual(i);
+    return as_planned;
+  }
+
+  /// J v of one side of a row, if that is a body which rows cannot move, as a platform: to the
+  /// kernel it is the world. @p side: its linear part, its angular part behind it
+  double VelocityOfUnmoved(int body, const Pair& pair, const Eigen::Vector3d& side) const {
+    const bool is_body = body >= 0 && body < static_cast<int>(packer_.bodies.size());
+    if (!is_body || body == pair.a) return 0;
+    const Velocity& free = packer_.bodies[body].free;
+    return side.dot(free.linear) +
+           Eigen::Map<const Eigen::Vector3d>(side.data() + 3).dot(free.angular);
+  }
+
+  bool Fits(const Row& row, const Pair& pair, int parent, const RowShape& shape) const {
+    return row.parent == parent && LikeParent(row) && HasShape(row, packer_.omega, shape) &&
+           Joins(row, pair, packer_.movable) && HasValidLaw(row) &&
+           (block_.form != PairForm::kContact || ActsOpposite(row));
+  }
+
+  /// It names the bodies that its parent names. @pre the parent is the one that was planned for
+  bool LikeParent(const Row& row) const {
+    if (row.parent == kNoRow) return true;
+    const Row& parent = packer_.problem.rows[row.parent];
+    return (row.body_a == parent.body_a && row.body_b == parent.body_b) ||
+           (row.body_a == parent.body_b && row.body_b == parent.body_a);
+  }
+
+  void ReadUnusual(int i) {
+    for (int lane = 0; lane < block_.lanes; ++lane) {
+      const Row& row = packer_.problem.rows[rows_[lane][i]];
+      source_.compliance.lane[lane] = row.compliance;
+      source_.relaxation.lane[lane] = packer_.omega * row.relaxation;
+      bounds_.lo.lane[lane] = row.lo;
+      bounds_.hi.lane[lane] = row.hi;
+    }
+    unusual_ = true;
+  }
+
+  void PutLaw(const RowShape& shape) {
+    if (!unusual_) return;
+    const auto put = [this](const simd::DoubleLine& from) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        line_->lane[lane] = static_cast<float>(from.lane[lane]);
+      }
+      ++line_;
+    };
+    if (shape.soft) put(source_.compliance);
+    if (shape.relaxed) put(source_.relaxation);
+    // the next row is one without, unless it says so
+    source_.compliance = {};
+    source_.relaxation = unit_;
+    unusual_ = false;
+  }
+
+  PackResult PutImpulses(int i, const RowShape& shape, std::span<const double> impulses) {
+    Line* next = line_;
+    const auto put = [this, &next](const simd::DoubleLine& from) {
+      for (int lane = 0; lane < block_.lanes; ++lane) next->lane[lane] = Bound(from.lane[lane]);
+      ++next;
+    };
+    if (shape.parent >= 0) put(bounds_.friction);
+    if (shape.bound == RowBound::kOwn || shape.bound == RowBound::kCutFriction) {
+      put(bounds_.lo);
+      put(bounds_.hi);
+    }
+
+    bool in_range = true;
+    for (int lane = 0; lane < block_.lanes; ++lane) {
+      const double x = impulses[rows_[lane][i]];
+      in_range = in_range && std::abs(x) <= kMost && bounds_.friction.lane[lane] <= kMost;
+      x_[i].lane[lane] = static_cast<float>(x);
+    }
+    Clamp(shape.bound, line_, shape.parent >= 0 ? x_ + shape.parent : nullptr, x_ + i);
+    return in_range ? PackResult::kDone : PackResult::kOutOfRange;
+  }
+
+  const BlockPacker& packer_;
+  const simd::PairBlock& block_;
+  Line* line_;  ///< next one to be filled
+  Line* x_;
+  const Pair* pairs_[kLanes] = {};
+  const int* rows_[kLanes] = {};
+  simd::BodyLines a_, b_;  ///< b_: unused for PairForm::kSingle
+  simd::SourceRows source_;
+  struct {
+    simd::DoubleLine friction, lo, hi;
+  } bounds_;
+  simd::DoubleLine unit_;
+  bool unusual_ = false;  ///< the row has more than the usual law
+};
+
+template <class T>
+void Grow(size_t size, std::vector<T>* values) {
+  if (values->size() < size) values->resize(size);
+}
+
+}  // namespace
+
+void BlockPacker::Reserve(BlockData* blocks) const {
+  Grow(plan.data_lines(), &blocks->data);
+  Grow(plan.x_lines(), &blocks->x);
+  if (!problem.manifolds.empty())
+    Grow(2 * static_cast<size_t>(plan.x_lines()), &blocks->directions);
+  Grow(plan.body_of_slot().size(), &blocks->bodies);
+}
+
+PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulses,
+                             BlockData* blocks) const {
+  for (int block = first_block; block < first_block + count; ++block) {
+    const PackResult result = PackBlock(block, impulses, blocks);
+    if (result != PackResult::kDone) return result;
+  }
+  return PackResult::kDone;
+}
+
+PackResult BlockPacker::PackBlock(int block, const Impulses& impulses, BlockData* blocks) const {
+  switch (plan.pair(block, 0).source) {
+    case RowSource::kRows:
+      break;
+    case RowSource::kJoint:
+      return PackJoints(*this, block, impulses, blocks);
+    case RowSource::kManifold:
+      return PackManifolds(*this, block, impulses, blocks);
+  }
+  return OneBlock(*this, block, blocks).Pack(impulses.rows);
+}
+
+void BlockPacker::WriteImpulses(int first_block, int count, const BlockData& blocks,
+                                const Impulses& impulses) const {
+  for (int i = first_block; i < first_block + count; ++i) {
+    switch (plan.pair(i, 0).source) {
+      case RowSource::kRows:
+        WriteRows(i, blocks, impulses);
+        break;
+      case RowSource::kJoint:
+        WriteJoints(*this, i, blocks, impulses);
+        break;
+      case RowSource::kManifold:
+        WriteManifolds(*this, i, blocks, impulses);
+        break;
+    }
+  }
+}
+
+void BlockPacker::WriteRows(int index, const BlockData& blocks, const Impulses& impulses) const {
+  const simd::PairBlock& block = plan.blocks()[index];
+  for (int lane = 0; lane < block.lanes; ++lane) {
+    const std::span<const int> rows = plan.rows_of(plan.pair(index, lane));
+    for (int k = 0; k < block.row_count; ++k) {
+      const double x = blocks.x[block.x + k].lane[lane];
+      const bool may_be_outside = HasOwnBounds(block.rows[k].bound);
+      impulses.rows[rows[k]] = may_be_outside ? InsideOwnBounds(x, problem.rows[rows[k]]) : x;
+    }
+  }
+}
+
+void BlockPacker::WriteVelocities(int first_body, int count, const BlockData& blocks,
+                                  std::span<Velocity> velocities) const {
+  for (int body = first_body; body < first_body + count; ++body) {
+    const float* const u = blocks.bodies[plan.slot_of_body()[body]].u;
+    velocities[body] = Unwhiten(bodies[body], Eigen::Vector3d(u[0], u[1], u[2]),
+                                Eigen::Vector3d(u[4], u[5], u[6]));
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+#include "plan/plan.h"
+#include "problem/whitening.h"
+#include "simd/contact_rows.h"
+#include "simd/joint_rows.h"
+#include "simd/pair_block.h"
+#include "simd/row_pack.h"
+
+namespace cairn {
+
+/// Everything that kernels read and write, in floats: 50 bytes or so a row.
+struct BlockData {
+  std::vector<simd::Line> data;        ///< constant during a Solve(); see simd::PairForm
+  std::vector<simd::Line> x;           ///< impulses
+  std::vector<simd::Line> directions;  ///< of friction, where manifolds are; see manifold_pack
+  std::vector<simd::BodyLane> bodies;  ///< u, by slot of the plan
+};
+
+/// What became of rows that were to be packed.
+enum class PackResult {
+  kDone,
+  /// The problem is not the one that was planned for, or its numbers are not valid.
+  kChanged,
+  /// Out of the range of a float; not valid either, if the plan is an old one.
+  kOutOfRange,
+};
+
+/// Whether rows are to stay inside numbers of the caller's.
+inline bool HasOwnBounds(simd::RowBound bound) {
+  return bound == simd::RowBound::kOwn || bound == simd::RowBound::kCutFriction;
+}
+
+/// A problem on its way into blocks, and back. Different blocks may be packed at the same time.
+struct BlockPacker {
+  const ContactProblem& problem;
+  const Plan& plan;
+  const MovableBodies& movable;
+  std::span<const WhitenedBody> bodies;
+  std::span<const simd::ContactBody> contact_bodies;  ///< if there are joints or manifolds
+  double omega;
+  simd::RowPackKernel pack_row;
+  simd::JointRowsKernel pack_joints;
+  const simd::ContactKernels& contacts;
+
+  /// A body as joints and contacts see it.
+  const simd::ContactBody* contact_body(int body) const {
+    static constexpr simd::ContactBody kNobody{};
+    return body == kWorld ? &kNobody : &contact_bodies[body];
+  }
+
+  /// Makes room.
+  void Reserve(BlockData* blocks) const;
+  /// Rows of so many blocks from the first on; x from the caller's impulses, brought inside their
+  /// bounds.
+  PackResult Pack(int first_block, int count, const Impulses& impulses, BlockData* blocks) const;
+  /// Impulses of the caller from x.
+  void WriteImpulses(int first_block, int count, const BlockData& blocks,
+                     const Impulses& impulses) const;
+  /// Velocities of so many bodies from the first on.
+  void WriteVelocities(int first_body, int count, const BlockData& blocks,
+                       std::span<Velocity> velocities) const;
+
+ private:
+  PackResult PackBlock(int block, const Impulses& impulses, BlockData* blocks) const;
+  void WriteRows(int block, const BlockData& blocks, const Impulses& impulses) const;
+};
+
+}  // namespace cairn

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "pack/block_snapshot.h"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+using Lines = std::vector<simd::Line>;
+using Bodies = std::vector<simd::BodyLane>;
+
+/// Impulses and bodies of an island, which may share its lines with others.
+void Copy(const Plan& plan, int island, const Lines& x_from, const Bodies& bodies_from, Lines* x,
+          Bodies* bodies) {
+  const Group& group = plan.groups()[plan.islands()[island].group];
+  if (group.islands == 1) {
+    std::copy_n(x_from.begin() + group.first_x, group.x_lines, x->begin() + group.first_x);
+    std::copy_n(bodies_from.begin() + group.first_slot, group.slots,
+                bodies->begin() + group.first_slot);
+    return;
+  }
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      if (plan.island_of(b, lane) != island) continue;
+      for (int k = 0; k < block.row_count; ++k) {
+        (*x)[block.x + k].lane[lane] = x_from[block.x + k].lane[lane];
+      }
+      (*bodies)[block.a[lane]] = bodies_from[block.a[lane]];
+      if (block.b[lane] != 0) (*bodies)[block.b[lane]] = bodies_from[block.b[lane]];
+    }
+  }
+}
+
+}  // namespace
+
+void BlockSnapshot::Reserve(const BlockData& blocks) {
+  if (x_.size() < blocks.x.size()) x_.resize(blocks.x.size());
+  if (bodies_.size() < blocks.bodies.size()) bodies_.resize(blocks.bodies.size());
+}
+
+void BlockSnapshot::Take(const Plan& plan, int island, const BlockData& blocks) {
+  Reserve(blocks);
+  Copy(plan, island, blocks.x, blocks.bodies, &x_, &bodies_);
+}
+
+void BlockSnapshot::Restore(const Plan& plan, int island, BlockData* blocks) const {
+  Copy(plan, island, x_, bodies_, &blocks->x, &blocks->bodies);
+}
+
+}  // namespace cairn

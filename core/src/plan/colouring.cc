@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "plan/colouring.h"
+
+#include <bit>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+/// Names of bodies without an id begin here.
+constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
+
+int KindOf(const Pair& pair) { return (pair.contact ? 2 : 0) + (pair.b == kWorld ? 1 : 0); }
+
+std::uint64_t HashOf(std::uint64_t a, std::uint64_t b, bool contact) {
+  const std::uint64_t mixed = (a * 0x9e3779b97f4a7c15u) ^ ((b + contact) * 0xc2b2ae3d27d4eb4fu);
+  return mixed ^ (mixed >> 31);
+}
+
+}  // namespace
+
+Colouring::Name Colouring::NameOf(const Pair& pair) const {
+  const auto name = [this](int body) { return body == kWorld ? 0 : body_names_[body]; };
+  const std::uint64_t a = name(pair.a), b = name(pair.b);
+  return a > b ? Name{a, b, pair.contact} : Name{b, a, pair.contact};
+}
+
+int Colouring::FindKnown(const Name& name, size_t expected) {
+  // pairs mostly come in the order of the last call
+  if (expected < known_.size() && known_[expected].name == name) return static_cast<int>(expected);
+  if (!table_filled_) FillTable();
+  const size_t mask = table_.size() - 1;
+  for (size_t at = HashOf(name.a, name.b, name.contact) & mask;; at = (at + 1) & mask) {
+    if (table_[at] == 0) return -1;
+    if (known_[table_[at] - 1].name == name) return table_[at] - 1;
+  }
+}
+
+void Colouring::FillTable() {
+  size_t capacity = 64;
+  while (capacity < 2 * known_.size()) capacity *= 2;
+  table_.assign(capacity, 0);
+  for (size_t i = 0; i < known_.size(); ++i) {
+    const Name& name = known_[i].name;
+    size_t at = HashOf(name.a, name.b, name.contact) & (capacity - 1);
+    while (table_[at] != 0) at = (at + 1) & (capacity - 1);
+    table_[at] = static_cast<int>(i) + 1;
+  }
+  table_filled_ = true;
+}
+
+int Colouring::Choose(const Pair& pair, int kind) {
+  std::uint32_t taken = pair.a == kWorld ? 0 : masks_[pair.a].used[kind];
+  if (pair.b != kWorld) taken |= masks_[pair.b].used[kind];
+  const int lowest = std::countr_one(taken);
+  return lowest < Colour::kOfKind ? 1 + kind * Colour::kOfKind + lowest : Colour::kOverflow;
+}
+
+void Colouring::Occupy(const Pair& pair, int kind, int colour) {
+  if (colour == Colour::kOverflow) return;
+  const std::uint32_t bit = std::uint32_t{1} << (colour - 1 - kind * Colour::kOfKind);
+  if (pair.a != kWorld) masks_[pair.a].used[kind] |= bit;
+  if (pair.b != kWorld) masks_[pair.b].used[kind] |= bit;
+}
+
+void Colouring::Update(std::span<const Body> bodies, std::span<const Pair> pairs) {
+  body_names_.resize(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    body_names_[i] = bodies[i].id != 0 ? bodies[i].id : kUnnamed + i;
+  }
+  masks_.assign(bodies.size(), {});
+  colours_.assign(pairs.size(), -1);
+  before_.assign(pairs.size(), -1);
+  KeepKnown(pairs);
+
+  // the new ones
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const int kind = KindOf(pairs[i]);
+    if (colours_[i] < 0) {
+      colours_[i] = Choose(pairs[i], kind);
+      Occupy(pairs[i], kind, colours_[i]);
+    }
+    next_[i].colour = colours_[i];
+  }
+  known_.swap(next_);
+  table_filled_ = false;
+}
+
+void Colouring::KeepKnown(std::span<const Pair> pairs) {
+  size_t expected = 0;
+  next_.clear();
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const Name name = NameOf(pairs[i]);
+    next_.push_back({name, Colour::kOverflow, false});
+    const int known = FindKnown(name, expected);
+    if (known < 0 || std::exchange(known_[known].again, true)) continue;
+    before_[i] = known;
+    expected = static_cast<size_t>(known) + 1;
+
+    // unless two bodies swapped names, or can no longer move
+    const int kind = KindOf(pairs[i]), colour = known_[known].colour;
+    const bool of_kind = colour != Colour::kOverflow && (colour - 1) / Colour::kOfKind == kind;
+    if (!of_kind) continue;
+    const std::uint32_t bit = std::uint32_t{1} << ((colour - 1) % Colour::kOfKind);
+    const auto taken = [&](int body) { return body != kWorld && masks_[body].used[kind] & bit; };
+    if (taken(pairs[i].a) || taken(pairs[i].b)) continue;
+    colours_[i] = colour;
+    Occupy(pairs[i], kind, colour);
+  }
+}
+
+}  // namespace cairn

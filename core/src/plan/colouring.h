@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+#include "plan/pairs.h"
+
+namespace cairn {
+
+/// When in a sweep a pair is relaxed. Pairs of one colour share no movable body.
+struct Colour {
+  /// Pairs that no colour was left for: made disjoint block by block, before all colours.
+  static constexpr int kOverflow = 0;
+  /// Colours of each kind of pair: joints, joints with the world, contacts, contacts with the
+  /// world. Kinds follow each other in a sweep: what cannot give way has the last word.
+  static constexpr int kOfKind = 32;
+  static constexpr int kKinds = 4;
+  static constexpr int kCount = 1 + kKinds * kOfKind;
+};
+
+/// Gives every pair of bodies a colour that it keeps as long as it lives: colours change where
+/// pairs begin and end, and nowhere else. A pair is known by the names of its bodies (Body::id, or
+/// their place in the problem) and by being a contact or not.
+class Colouring {
+ public:
+  /// The colour of each pair. Depends on the pairs of this and of earlier calls alone: those that
+  /// are known keep theirs, new ones take the lowest that is free, in the order of @p pairs.
+  void Update(std::span<const Body> bodies, std::span<const Pair> pairs);
+
+  std::span<const int> colours() const { return colours_; }
+  /// Where each pair was in the list of the last call, -1 for those that have just begun; no place
+  /// twice, even where bodies share a name.
+  std::span<const int> before() const { return before_; }
+
+ private:
+  using Masks = std::uint32_t[Colour::kKinds];
+  struct Name {
+    std::uint64_t a, b;
+    bool contact;
+    friend bool operator==(const Name&, const Name&) = default;
+  };
+  /// A pair of the last call: its colour, kept if the pair is there again.
+  struct Known {
+    Name name;
+    int colour;
+    bool again;  ///< found in this call
+  };
+
+  Name NameOf(const Pair& pair) const;
+  int FindKnown(const Name& name, size_t expected);
+  void FillTable();
+  void KeepKnown(std::span<const Pair> pairs);
+  int Choose(const Pair& pair, int kind);
+  void Occupy(const Pair& pair, int kind, int colour);
+
+  std::vector<Known> known_, next_;
+  std::vector<int> table_;  ///< open addressing into known_: place + 1, or 0
+  bool table_filled_ = false;
+  std::vector<std::uint64_t> body_names_;
+  std::vector<int> colours_, before_;
+  struct BodyMasks {
+    Masks used;
+  };
+  std::vector<BodyMasks> masks_;  ///< by body: colours taken
+};
+
+}  // namespace cairn

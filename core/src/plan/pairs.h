@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+#include "plan/row_law.h"
+#include "simd/pair_block.h"
+
+namespace cairn {
+
+/// Where the numbers of rows come from.
+enum class RowSource : char { kRows, kJoint, kManifold };
+
+/// Bodies joined by rows: what one lane of a block holds.
+struct Pair {
+  int a, b;          ///< bodies of the problem; b is kWorld unless both can move
+  int row_a, row_b;  ///< bodies of its first row
+  int first, rows;   ///< its part of PairList::rows; otherwise, the number of its rows alone
+  simd::PairForm form;
+  bool contact;  ///< begins with a row that only pushes: swept after joints
+  int shape;     ///< of its rows, in ShapeTable
+  RowSource source = RowSource::kRows;
+  int index = 0;  ///< which of the joints or manifolds it is
+};
+
+/// Whether rows of the one are of the same kind and number as those of the other.
+inline bool HasLawOf(const Joint& a, const Joint& b) {
+  return a.rows == b.rows && a.bounded == b.bounded && a.angular == b.angular && a.soft == b.soft &&
+         a.opposite == b.opposite && a.max_sweeps == b.max_sweeps;
+}
+inline bool HasLawOf(const Manifold& a, const Manifold& b) {
+  return a.points == b.points && a.tangents == b.tangents && a.soft == b.soft &&
+         a.twists == b.twists && a.max_sweeps == b.max_sweeps;
+}
+
+/// Sequences of row shapes, each once for each source.
+class ShapeTable {
+ public:
+  /// The number of the shape.
+  int Intern(std::span<const simd::RowShape> rows, RowSource source);
+  std::span<const simd::RowShape> rows(int shape) const;
+  /// Lines of all rows of the shape.
+  int lines(simd::PairForm form, int shape) const;
+  int size() const { return static_cast<int>(begin_.size()) - 1; }
+  void Clear();
+
+ private:
+  std::vector<simd::RowShape> rows_;
+  std::vector<int> begin_ = {0};
+  std::vector<RowSource> sources_;
+};
+
+/// The structure of a problem: who touches whom, with what kind of rows. No numbers.
+struct PairList {
+  std::vector<Pair> pairs;  ///< In the order of their first row; then joints, then manifolds.
+  std::vector<int> rows;    ///< Problem rows, pair by pair, ascending within a pair.
+
+  std::span<const int> rows_of(const Pair& pair) const {
+    return {rows.data() + pair.first, static_cast<size_t>(pair.rows)};
+  }
+};
+
+/// How rows can move each body: what the plan knows of it.
+enum Mobility : char {
+  kUnmoved,  ///< Not at all; see CanMove().
+  kMoved,
+  kMovedEvenly,  ///< And pushed the same way in all directions.
+};
+using MovableBodies = std::vector<Mobility>;
+Mobility MobilityOf(const Body& body);
+
+/// Collects the rows of each pair of bodies. Consecutive rows of the same bodies stay together; a
+/// friction row goes with its parent, other rows with earlier ones of the same bodies and kind.
+/// Joints and manifolds are a pair each.
+class PairFinder {
+ public:
+  /// Fills the list, and @p shapes as far as new. False if a row has no parent that it may have: an
+  /// earlier one of the same bodies, which has none itself.
+  /// @pre joints and manifolds are valid
+  [[nodiscard]] bool Find(std::span<const RowLaw> laws, const ContactProblem& problem,
+                          const MovableBodies& movable, ShapeTable* shapes, PairList* list);
+
+ private:
+  void AddJoints(std::span<const Joint> joints, ShapeTable* shapes);
+  int ShapeOf(const Joint& joint, ShapeTable* shapes);
+  void AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes);
+  /// Appends the pair that a joint or a manifold is. @p opposite: its rows push with opposite
+  /// forces
+  void Add(const Pair& pair, bool opposite);
+  int ShapeOf(const Manifold& manifold, ShapeTable* shapes);
+  int PairOf(const RowLaw& law, size_t index);
+  int Look(int a, int b, bool contact);
+  void HandOutRows();
+  void FindShapes(ShapeTable* shapes);
+
+  std::span<const RowLaw> laws_;
+  const MovableBodies* movable_ = nullptr;
+  PairList* list_ = nullptr;
+  std::vector<int> pair_of_row_;
+  std::vector<int> table_;  ///< open addressing: pair + 1, or 0
+  std::vector<int> place_;  ///< problem row -> row of its pair
+  std::vector<simd::RowShape> scratch_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "plan/plan.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+
+/// Small islands share groups of at most so many rows: blocks, impulses and bodies of a group then
+/// fit the first two levels of the cache, its lanes are full, and a budget is exceeded by no more.
+/// Larger islands are swept by colours.
+constexpr int kGroupRows = 2048;
+/// A claim of a thread: a few microseconds of work.
+constexpr int kUnitRows = 1024;
+/// The budget is looked at between stages: at most about 50 us of work each, on slow targets too.
+constexpr int kStageRows = 8192;
+/// Colours smaller than this are not worth waiting for each other: one thread takes several, up to
+/// so many rows.
+constexpr int kTinyColour = 512;
+constexpr int kTinyColoursRows = 2048;
+/// Blocks that a pair without a colour may still join.
+constexpr int kOpenBlocks = 8;
+
+bool IsLarge(const PlannedIsland& island) { return island.rows > kGroupRows; }
+
+bool Shares(const simd::PairBlock& block, int a, int b) {
+  for (int lane = 0; lane < block.lanes; ++lane) {
+    const int of_a = block.a[lane], of_b = block.b[lane];
+    if (of_a == a || (b != 0 && (of_a == b || of_b == b)) || of_b == a) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool Plan::Make(const ContactProblem& problem, std::span<const RowLaw> laws,
+                const MovableBodies& movable) {
+  const std::span<const Body> bodies = problem.bodies;
+  if (!pair_finder_.Find(laws, problem, movable, &shapes_, &list_)) return false;
+  colouring_.Update(bodies, list_.pairs);
+  FindIslands(static_cast<int>(bodies.size()));
+  FindGroups();
+  SortPairs();
+  GiveSlots(bodies.size());
+  FillBlocks();
+  FindStages();
+  return true;
+}
+
+void Plan::FindIslands(int bodies) {
+  island_finder_.Start(bodies);
+  for (const Pair& pair : list_.pairs) island_finder_.Join(pair.a, pair.b);
+  islands_.assign(island_finder_.Number(), {});
+
+  const std::vector<int>& island_of = island_finder_.island_of_body();
+  for (int body = bodies - 1; body >= 0; --body) {
+    if (island_of[body] < 0) continue;
+    PlannedIsland& island = islands_[island_of[body]];
+    island.first_body = body;
+    ++island.bodies;
+  }
+  // pairs that nothing can move for are an island of their own, the last
+  island_of_pair_.resize(list_.pairs.size());
+  const int attached = static_cast<int>(islands_.size());
+  for (size_t i = 0; i < list_.pairs.size(); ++i) {
+    const Pair& pair = list_.pairs[i];
+    const int island = pair.a == kWorld ? attached : island_of[pair.a];
+    if (island == static_cast<int>(islands_.size())) islands_.emplace_back();
+    islands_[island].rows += pair.rows;
+    island_of_pair_[i] = island;
+  }
+}
+
+void Plan::FindGroups() {
+  groups_.clear();
+  islands_of_groups_.clear();
+  const auto add = [this](int island, bool alone) {
+    if (alone) groups_.push_back({.first_island = static_cast<int>(islands_of_groups_.size())});
+    islands_[island].group = static_cast<int>(groups_.size()) - 1;
+    ++groups_.back().islands;
+    groups_.back().rows += islands_[island].rows;
+    islands_of_groups_.push_back(island);
+  };
+  // large islands alone; of the small ones, how many groups they fill
+  std::int64_t small = 0, count = 0;
+  int room = 0;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    const PlannedIsland& island = islands_[i];
+    if (IsLarge(island)) add(i, true);
+    if (IsLarge(island) || island.first_body < 0) continue;
+    small += island.rows;
+    if (island.rows > room) {
+      ++count;
+      room = kGroupRows;
+    }
+    room -= island.rows;
+  }
+  // a share of the rows for each of them, and apart from what nothing can move for
+  std::int64_t shares = 0, rows = 0;
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    const PlannedIsland& island = islands_[i];
+    if (IsLarge(island)) continue;
+    const bool begins = rows * count >= small * shares || island.first_body < 0 ||
+                        groups_.back().rows + island.rows > kGroupRows;
+    if (begins) ++shares;
+    add(i, begins);
+    rows += island.rows;
+  }
+}
+
+void Plan::SortPairs() {
+  constexpr int kForms = 3;
+  keys_.resize(list_.pairs.size());
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    const int colour = colouring_.colours()[i];
+    const int shape = list_.pairs[i].shape * kForms + static_cast<int>(list_.pairs[i].form);
+    keys_[i] = {.group = islands_[island_of_pair_[i]].group,
+                .colour = colour,
+                .shape = colour == Colour::kOverflow ? 0 : shape};
+  }
+  pair_order_.Update(keys_, colouring_.before(),
+                     {.groups = static_cast<int>(groups_.size()),
+                      .colours = Colour::kCount,
+                      .shapes = shapes_.size() * kForms});
+  order_.assign(pair_order_.order().begin(), pair_order_.order().end());
+}
+
+int Plan::SlotOf(int body) {
+  int& slot = slot_of_body_[body];
+  if (slot == 0) {
+    slot = static_cast<int>(body_of_slot_.size());
+    body_of_slot_.push_back(body);
+  }
+  return slot;
+}
+
+void Plan::GiveSlots(size_t bodies) {
+  // by first use in a sweep: blocks that follow each other find their bodies close together
+  slot_of_body_.assign(bodies, 0);
+  body_of_slot_.assign(1, kWorld);
+  for (Group& group : groups_) group.slots = 0;
+  for (int i : order_) {
+    const Pair& pair = list_.pairs[i];
+    const int before = static_cast<int>(body_of_slot_.size());
+    if (pair.a != kWorld) SlotOf(pair.a);
+    if (pair.b != kWorld) SlotOf(pair.b);
+    if (pair.a == kWorld) body_of_slot_.push_back(kWorld);
+    Group& group = groups_[keys_[i].group];
+    if (group.slots == 0) group.first_slot = before;
+    group.slots += static_cast<int>(body_of_slot_.size()) - before;
+  }
+}
+
+/// Marks blocks that are followed by one of the same colour, and so of other bodies, with the same
+/// rows.
+void Plan::FindAlike() {
+  for (size_t i = 0; i + 1 < blocks_.size(); ++i) {
+    const simd::PairBlock& next = blocks_[i + 1];
+    const int colour = colour_of_block_[i];
+    blocks_[i].like_next = colour != Colour::kOverflow && colour == colour_of_block_[i + 1] &&
+                           blocks_[i].form == next.form && blocks_[i].rows == next.rows;
+  }
+}
+
+simd::PairBlock& Plan::AddBlock(int pair) {
+  const Pair& of = list_.pairs[pair];
+  simd::PairBlock& block = blocks_.emplace_back();
+  block = {};
+  block.rows = shapes_.rows(of.shape).data();
+  block.row_count = of.rows;
+  block.form = of.form;
+  block.data = static_cast<std::uint32_t>(data_lines_);
+  block.x = static_cast<std::uint32_t>(x_lines_);
+  data_lines_ += simd::PairLines(of.form) + shapes_.lines(of.form, of.shape);
+  x_lines_ += of.rows;
+  pair_of_lane_.resize(blocks_.size() * kLanes, -1);
+  island_of_lane_.resize(blocks_.size() * kLanes, -1);
+  colour_of_block_.push_back(colouring_.colours()[pair]);
+  return block;
+}
+
+void Plan::AddLane(int pair, simd::PairBlock* block) {
+  const Pair& of = list_.pairs[pair];
+  const int index = static_cast<int>(block - blocks_.data());
+  const int lane = index * kLanes + block->lanes;
+  pair_of_lane_[lane] = pair;
+  island_of_lane_[lane] = island_of_pair_[pair];
+  block->a[block->lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
+  block->b[block->lanes] = of.b == kWorld ? 0 : slot_of_body_[of.b];
+  ++block->lanes;
+}
+
+void Plan::FillOverflow(size_t begin, size_t end) {
+  // island by island, each as if it were alone
+  const auto before = [this](int i, int j) {
+    return std::pair(island_of_pair_[i], i) < std::pair(island_of_pair_[j], j);
+  };
+  std::sort(order_.begin() + static_cast<std::ptrdiff_t>(begin),
+            order_.begin() + static_cast<std::ptrdiff_t>(end), before);
+  int island = -1;
+  size_t first_block = blocks_.size();
+  for (size_t i = begin; i < end; ++i) {
+    if (std::exchange(island, island_of_pair_[order_[i]]) != island) first_block = blocks_.size();
+    simd::PairBlock* const open = FindOpenBlock(order_[i], first_block);
+    AddLane(order_[i], open != nullptr ? open : &AddBlock(order_[i]));
+  }
+}
+
+simd::PairBlock* Plan::FindOpenBlock(int index, size_t first_block) {
+  const Pair& pair = list_.pairs[index];
+  const int a = slot_of_body_[pair.a], b = pair.b == kWorld ? 0 : slot_of_body_[pair.b];
+  const size_t most = std::min<size_t>(blocks_.size() - first_block, kOpenBlocks);
+  for (size_t at = blocks_.size() - most; at < blocks_.size(); ++at) {
+    const Pair& other = list_.pairs[pair_of_lane_[at * kLanes]];
+    const bool alike = other.shape == pair.shape && other.form == pair.form;
+    if (alike && blocks_[at].lanes < kLanes && !Shares(blocks_[at], a, b)) return &blocks_[at];
+  }
+  return nullptr;
+}
+
+void Plan::FillBlocks() {
+  blocks_.clear();
+  pair_of_lane_.clear();
+  island_of_lane_.clear();
+  colour_of_block_.clear();
+  data_lines_ = x_lines_ = 0;
+  size_t i = 0;
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    Group& group = groups_[g];
+    group.first_block = static_cast<int>(blocks_.size());
+    group.first_x = x_lines_;
+    unmoved_slot_ = group.first_slot;
+    const auto of_group = [&](size_t at) {
+      return at < order_.size() && keys_[order_[at]].group == g;
+    };
+    const size_t begin = i;
+    while (of_group(i) && keys_[order_[i]].colour == Colour::kOverflow) ++i;
+    FillOverflow(begin, i);
+
+    // a block ends with its colour, its shape, or full
+    PairKey key{};  // that of no pair with a colour
+    for (; of_group(i); ++i) {
+      const PairKey& next = keys_[order_[i]];
+      const bool same = key == next && blocks_.back().lanes < kLanes;
+      AddLane(order_[i], same ? &blocks_.back() : &AddBlock(order_[i]));
+      key = next;
+    }
+    group.blocks = static_cast<int>(blocks_.size()) - group.first_block;
+    group.x_lines = x_lines_ - group.first_x;
+  }
+  FindAlike();
+}
+
+int Plan::RowsOf(int first_block, int end_block) const {
+  int rows = 0;
+  for (int b = first_block; b < end_block; ++b) rows += blocks_[b].lanes * blocks_[b].row_count;
+  return rows;
+}
+
+void Plan::AddUnits(int first_block, int end_block, int group) {
+  // blocks of one colour, a stage at a time
+  for (int b = first_block; b < end_block;) {
+    stages_.push_back({.first_unit = static_cast<int>(units_.size())});
+    for (int rows = 0; b < end_block && rows < kStageRows;) {
+      Unit unit{.first_block = b, .group = group};
+      for (; b < end_block && unit.rows < kUnitRows; ++b) unit.rows += RowsOf(b, b + 1);
+      unit.blocks = b - unit.first_block;
+      rows += unit.rows;
+      units_.push_back(unit);
+      ++stages_.back().units;
+    }
+  }
+}
+
+void Plan::StagesOf(int g) {
+  const Group& group = groups_[g];
+  const int end = group.first_block + group.blocks;
+  bool tail = false;  // the last unit is one of tiny colours, and may be continued
+  for (int b = group.first_block; b < end;) {
+    int next = b + 1;
+    while (next < end && colour_of_block_[next] == colour_of_block_[b]) ++next;
+    const int rows = RowsOf(b, next);
+    const bool overflow = colour_of_block_[b] == Colour::kOverflow;
+    if (!overflow && rows >= kTinyColour) {
+      AddUnits(b, next, g);
+      tail = false;
+      b = next;
+      continue;
+    }
+    // one thread: blocks of the overflow, and of tiny colours
+    for (; b < next; ++b) {
+      const int more = RowsOf(b, b + 1);
+      if (!tail || units_.back().rows + more > kTinyColoursRows) {
+        stages_.push_back({.first_unit = static_cast<int>(units_.size()), .units = 1});
+        units_.push_back({.first_block = b, .group = g});
+        tail = true;
+      }
+      ++units_.back().blocks;
+      units_.back().rows += more;
+    }
+  }
+}
+
+void Plan::FindStages() {
+  units_.clear();
+  stages_.clear();
+  int rows = kStageRows;  // of the last stage of whole groups
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    const Group& group = groups_[g];
+    if (group.rows > kGroupRows) {
+      StagesOf(g);
+      continue;
+    }
+    if (rows >= kStageRows) {
+      stages_.push_back({.first_unit = static_cast<int>(units_.size())});
+      rows = 0;
+    }
+    units_.push_back({.first_block = group.first_block,
+                      .blocks = group.blocks,
+                      .group = g,
+                      .rows = static_cast<int>(group.rows)});
+    ++stages_.back().units;
+    rows += static_cast<int>(group.rows);
+  }
+}
+
+}  // namespace cairn

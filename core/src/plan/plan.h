@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plan/colouring.h"
+#include "plan/pair_order.h"
+#include "plan/pairs.h"
+#include "plan/row_law.h"
+#include "problem/islands.h"
+#include "simd/pair_block.h"
+
+namespace cairn {
+
+/// An island of the plan.
+struct PlannedIsland {
+  int first_body = -1;  ///< Lowest index in the problem, -1 for rows that nothing can move for.
+  int bodies = 0, rows = 0;
+  int group = 0;
+};
+
+/// A large island, or several small ones that fill the lanes together. Blocks, impulses and bodies
+/// of a group are side by side, and shared with no other.
+struct Group {
+  int first_block = 0, blocks = 0;
+  int first_x = 0, x_lines = 0;
+  int first_slot = 0, slots = 0;
+  int first_island = 0, islands = 0;  ///< in Plan::islands_of_groups()
+  std::int64_t rows = 0;
+};
+
+/// Blocks that one thread relaxes, in their order.
+struct Unit {
+  int first_block = 0, blocks = 0;
+  int group = 0;
+  int rows = 0;
+};
+
+/// Units that share no movable body: any number of threads may work on them. A sweep is all stages
+/// in their order.
+struct Stage {
+  int first_unit = 0, units = 0;
+};
+
+/// The order of work, from the structure of the problem and what was planned before: pairs keep
+/// their colours and their order, see Colouring and PairOrder, and only where pairs begin, end or
+/// get other rows does it change.
+class Plan {
+ public:
+  /// @p laws: of all rows, each valid by ReadLaw(). False if a parent is not valid, by Validate();
+  /// the plan is then of no use.
+  /// @pre bodies, joints and manifolds of the problem are valid
+  [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const RowLaw> laws,
+                          const MovableBodies& movable);
+
+  std::span<const simd::PairBlock> blocks() const { return blocks_; }
+  /// Pair of a lane. @pre lane < blocks()[block].lanes
+  const Pair& pair(int block, int lane) const {
+    return list_.pairs[pair_of_lane_[block * simd::kLanes + lane]];
+  }
+  int island_of(int block, int lane) const { return islands_of(block)[lane]; }
+  /// Islands of all lanes, -1 for those that are not used.
+  const int* islands_of(int block) const { return &island_of_lane_[block * simd::kLanes]; }
+  /// Problem rows of a pair. @pre it is made of rows
+  std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
+
+  std::span<const Group> groups() const { return groups_; }
+  std::span<const Stage> stages() const { return stages_; }
+  std::span<const Unit> units() const { return units_; }
+  std::span<const PlannedIsland> islands() const { return islands_; }
+  /// -1 for a body without rows.
+  std::span<const int> island_of_body() const { return island_finder_.island_of_body(); }
+  std::span<const int> islands_of_groups() const { return islands_of_groups_; }
+  /// Body of each slot, kWorld for those that belong to none: the first, and one for each pair that
+  /// cannot move.
+  std::span<const int> body_of_slot() const { return body_of_slot_; }
+  /// Slot of each body, 0 for one without rows.
+  std::span<const int> slot_of_body() const { return slot_of_body_; }
+  int data_lines() const { return data_lines_; }
+  int x_lines() const { return x_lines_; }
+
+ private:
+  void FindIslands(int bodies);
+  void FindGroups();
+  void SortPairs();
+  void FillBlocks();
+  void FillOverflow(size_t begin, size_t end);
+  void FindAlike();
+  simd::PairBlock* FindOpenBlock(int pair, size_t first_block);
+  simd::PairBlock& AddBlock(int pair);
+  void AddLane(int pair, simd::PairBlock* block);
+  void GiveSlots(size_t bodies);
+  int SlotOf(int body);
+  void FindStages();
+  void StagesOf(int group);
+  void AddUnits(int first_block, int end_block, int group);
+  int RowsOf(int first_block, int end_block) const;
+
+  ShapeTable shapes_;
+  PairFinder pair_finder_;
+  PairList list_;
+  Colouring colouring_;
+  IslandFinder island_finder_;
+
+  std::vector<PlannedIsland> islands_;
+  std::vector<int> islands_of_groups_;
+  std::vector<int> island_of_pair_;
+  std::vector<Group> groups_;
+
+  PairOrder pair_order_;
+  std::vector<PairKey> keys_;
+  std::vector<int> order_;  ///< pairs in the order of a sweep
+  std::vector<simd::PairBlock> blocks_;
+  std::vector<int> pair_of_lane_, island_of_lane_;
+  std::vector<int> colour_of_block_;
+  std::vector<int> slot_of_body_, body_of_slot_;
+  std::vector<Unit> units_;
+  std::vector<Stage> stages_;
+  int data_lines_ = 0, x_lines_ = 0;
+  int unmoved_slot_ = 0;  ///< next one for a pair that cannot move
+};
+
+}  // namespace cairn

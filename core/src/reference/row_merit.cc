@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "reference/row_merit.h"
+
+namespace cairn {
+
+Merit MeasureMerit(const PackedIsland& island, const IslandState& state) {
+  Merit merit;
+  for (const Vector6& u : state.u) {
+    for (const double part : u) merit.square += part * part;
+  }
+  for (size_t i = 0; i < island.rows.size(); ++i) {
+    const PackedRow& row = island.rows[i];
+    const double x = state.x[i];
+    merit.gain += row.target * x;
+    merit.square += row.compliance * x * x;
+    merit.may_be_none = merit.may_be_none && row.lo <= 0 && row.hi >= 0;
+  }
+  return merit;
+}
+
+void ScaleState(double factor, IslandState* state) {
+  for (double& x : state->x) x = factor == 0 ? 0 : factor * x;
+  for (Vector6& u : state->u) {
+    for (double& part : u) part = factor == 0 ? 0 : factor * part;
+  }
+}
+
+}  // namespace cairn

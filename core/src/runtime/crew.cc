@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: MIT
+#include "runtime/crew.h"
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstdint>
+#include <thread>
+#include <utility>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "runtime/executor_tbb.h"
+
+namespace cairn {
+namespace {
+
+/// Looks at a counter this often before the core is offered to somebody else.
+constexpr int kSpins = 4000;
+/// Units of a stage that can be claimed one by one; more are claimed several at a time.
+constexpr int kClaims = 256;
+
+void Pause() {
+#if defined(__SSE2__)
+  _mm_pause();
+#endif
+}
+
+/// One wait: pauses first, then yields.
+class Patience {
+ public:
+  void Wait() {
+    if (++waits_ < kSpins) return Pause();
+    std::this_thread::yield();
+  }
+
+ private:
+  int waits_ = 0;
+};
+
+/// A stage that helpers may work on: its number since the beginning of time, and its claims.
+struct Stage {
+  std::uint64_t number;
+  int claims;
+
+  static constexpr int kClaimBits = 16;
+  std::uint64_t Packed() const { return number << kClaimBits | static_cast<std::uint64_t>(claims); }
+  static Stage Unpack(std::uint64_t packed) {
+    return {packed >> kClaimBits, static_cast<int>(packed & ((1 << kClaimBits) - 1))};
+  }
+};
+
+/// What helpers see. It lives until the last of them has gone, and nothing else is touched by a
+/// helper that has claimed nothing.
+class Board {
+ public:
+  void Release() {
+    if (owners_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
+  }
+  /// A task is about to be submitted, by a helper that was counted.
+  void AddTask() {
+    owners_.fetch_add(1, std::memory_order_relaxed);
+    tasks_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// What the executor runs. Once too often, while there is a crew, does nothing.
+  void RunTask() {
+    if (!TakeTask()) return;
+    Help();
+    Release();
+  }
+  /// The task will not be run.
+  void DropTask() {
+    if (!TakeTask()) return;
+    helpers_.fetch_sub(1);
+    Release();
+  }
+
+  /// Counts one more helper; false if enough are here or on their way.
+  bool Expect() {
+    int helpers = helpers_.load();
+    while (helpers < most_helpers_.load(std::memory_order_relaxed)) {
+      if (helpers_.compare_exchange_weak(helpers, helpers + 1)) return true;
+    }
+    return false;
+  }
+
+  void Open(int most_helpers) {
+    caller_.store(std::this_thread::get_id(), std::memory_order_relaxed);
+    most_helpers_.store(most_helpers, std::memory_order_relaxed);
+    open_.store(true);
+  }
+  void Close() { open_.store(false, std::memory_order_release); }
+  bool open() const { return open_.load(std::memory_order_relaxed); }
+
+  /// The caller: does one stage with whoever is there.
+  void DoStage(StagedWork* work, int stage) {
+    const int units = work->units(stage);
+    SpanRecorder* const recorder = recorder_.load(std::memory_order_relaxed);
+    if (units <= 1 || !open()) {
+      const SpanClock clock(recorder, 0, LabelOf(recorder, *work, stage));
+      for (int unit = 0; unit < units; ++unit) work->Do(stage, unit);
+      return;
+    }
+    const int claims = units < kClaims ? units : kClaims;
+    work_.store(work, std::memory_order_relaxed);
+    stage_.store(stage, std::memory_order_relaxed);
+    units_.store(units, std::memory_order_relaxed);
+    done_.store(0, std::memory_order_relaxed);
+    const Stage now{++number_, claims};
+    published_.store(now.Packed(), std::memory_order_release);
+    Attend(now, {});
+    // what is claimed is being worked on by a running thread: this wait ends
+    const SpanClock clock(recorder, 0, {SpanKind::kWait});
+    for (Patience patience; done_.load(std::memory_order_acquire) < claims;) patience.Wait();
+  }
+
+  /// A helper, already counted: works until the board is closed.
+  void Help() {
+    // what the caller wrote before it opened the board is seen from here on
+    static_cast<void>(open_.load(std::memory_order_acquire));
+    if (caller_.load(std::memory_order_relaxed) == std::this_thread::get_id()) {
+      // it would wait for itself
+      helpers_.fetch_sub(1);
+      return;
+    }
+    const Helper helper{homes_.fetch_add(1, std::memory_order_relaxed) + 1, TakeLane()};
+    do {
+      HelpWhileOpen(helper);
+      helpers_.fetch_sub(1);
+      // opened again in between: whoever opened it may have counted on this helper
+    } while (open_.load() && Expect());
+    GiveBack(helper.lane);
+  }
+
+  void RecordTo(SpanRecorder* recorder) { recorder_.store(recorder, std::memory_order_relaxed); }
+
+ private:
+  /// A thread at work; the caller has the first of both.
+  struct Helper {
+    int home = 0;  ///< where it begins to claim
+    int lane = 0;  ///< of the record; nobody else has it
+  };
+
+  bool TakeTask() {
+    int tasks = tasks_.load();
+    while (tasks > 0 && !tasks_.compare_exchange_weak(tasks, tasks - 1)) continue;
+    return tasks > 0;
+  }
+
+  /// A label costs a virtual call, so only where somebody wants it.
+  static SpanLabel LabelOf(const SpanRecorder* recorder, const StagedWork& work, int stage) {
+    return recorder != nullptr ? work.label(stage) : SpanLabel{};
+  }
+
+  /// The lowest lane that nobody has; one that is not recorded if all are taken.
+  int TakeLane() {
+    std::uint64_t taken = lanes_.load(std::memory_order_relaxed);
+    while (~taken != 0) {
+      const int lane = std::countr_one(taken);
+      const std::uint64_t with = taken | std::uint64_t{1} << lane;
+      if (lanes_.compare_exchange_weak(taken, with, std::memory_order_acquire)) return lane;
+    }
+    return SpanRecorder::kMostWorkers;
+  }
+  void GiveBack(int lane) {
+    if (lane >= SpanRecorder::kMostWorkers) return;
+    lanes_.fetch_and(~(std::uint64_t{1} << lane), std::memory_order_release);
+  }
+
+  void HelpWhileOpen(const Helper& helper) {
+    std::uint64_t seen = 0;
+    Patience patience;
+    while (open_.load(std::memory_order_acquire)) {
+      const std::uint64_t packed = published_.load(std::memory_order_acquire);
+      if (packed == seen) {
+        patience.Wait();
+        continue;
+      }
+      seen = packed;
+      Attend(Stage::Unpack(packed), helper);
+      patience = {};
+    }
+  }
+
+  /// Claims what is left of a stage, from home on.
+  void Attend(const Stage& stage, const Helper& helper) {
+    if (stage.claims == 0) return;
+    const int threads = most_helpers_.load(std::memory_order_relaxed) + 1;
+    const int first = stage.claims * (helper.home % threads) / threads;
+    for (int i = 0; i < stage.claims; ++i) {
+      const int claim = first + i < stage.claims ? first + i : first + i - stage.claims;
+      std::uint64_t last = claimed_[claim].load(std::memory_order_relaxed);
+      // a stage of a later number has been here: this one is done
+      if (last >= stage.number) continue;
+      if (!claimed_[claim].compare_exchange_strong(last, stage.number, std::memory_order_acq_rel)) {
+        continue;
+      }
+      DoClaim(claim, stage.claims, helper.lane);
+      done_.fetch_add(1, std::memory_order_release);
+    }
+  }
+
+  void DoClaim(int claim, int claims, int lane) {
+    // stable now: the caller waits for what is claimed
+    StagedWork* const work = work_.load(std::memory_order_relaxed);
+    const int stage = stage_.load(std::memory_order_relaxed);
+    const std::int64_t units = units_.load(std::memory_order_relaxed);
+    const int begin = static_cast<int>(units * claim / claims);
+    const int end = static_cast<int>(units * (claim + 1) / claims);
+    SpanRecorder* const recorder = recorder_.load(std::memory_order_relaxed);
+    const SpanClock clock(recorder, lane, LabelOf(recorder, *work, stage));
+    for (int unit = begin; unit < end; ++unit) work->Do(stage, unit);
+  }
+
+  std::atomic<int> owners_{1}, helpers_{0}, most_helpers_{0}, homes_{0};
+  std::atomic<int> tasks_{0};  ///< submitted, and not run yet
+  std::atomic<std::thread::id> caller_{};
+  std::uint64_t number_ = 0;
+  std::atomic<StagedWork*> work_{nullptr};
+  std::atomic<SpanRecorder*> recorder_{nullptr};
+  std::atomic<std::uint64_t> lanes_{1};  ///< that are taken, a bit each
+  std::atomic<int> stage_{0}, units_{0};
+  std::array<std::atomic<std::uint64_t>, kClaims> claimed_{};
+  alignas(128) std::atomic<bool> open_{false};
+  alignas(128) std::atomic<std::uint64_t> published_{0};
+  alignas(128) std::atomic<int> done_{0};
+};
+
+}  // namespace
+
+bool StagedWork::GoOn(int) { return true; }
+
+struct Crew::Impl {
+  ~Impl() {
+    board->Close();
+    board->Release();
+  }
+
+  int threads;
+  Executor* given;
+  std::unique_ptr<Executor> own;
+  Board* board = new Board;
+  SpanRecorder* recorder = nullptr;
+};
+
+Crew::Crew(int threads, Executor* executor) : impl_(std::make_unique<Impl>()) {
+  impl_->threads = threads;
+  impl_->given = executor;
+  if (threads > 1 && executor == nullptr) impl_->own = MakeTbbExecutor(threads);
+}
+Crew::~Crew() = default;
+Crew::Crew(Crew&&) noexcept = default;
+Crew& Crew::operator=(Crew&&) noexcept = default;
+
+void Crew::Follow(const Settings& settings) {
+  const bool same = impl_->threads == settings.threads && impl_->given == settings.executor;
+  if (!same) *this = Crew(settings.threads, settings.executor);
+}
+
+void Crew::RecordTo(SpanRecorder* recorder) {
+  impl_->recorder = recorder;
+  impl_->board->RecordTo(recorder);
+}
+SpanRecorder* Crew::recorder() const { return impl_->recorder; }
+
+void Crew::Call() {
+  if (impl_->threads == 1) return;
+  Board* const board = impl_->board;
+  board->Open(impl_->threads - 1);
+  Executor* const executor = impl_->given != nullptr ? impl_->given : impl_->own.get();
+  const auto task = [](void* what) { static_cast<Board*>(what)->RunTask(); };
+  try {
+    // those that return at once are not asked for again
+    for (int i = 1; i < impl_->threads && board->Expect(); ++i) {
+      board->AddTask();
+      executor->Submit(task, board);
+    }
+  } catch (...) {
+    // the one that was not taken
+    board->DropTask();
+    board->Close();
+    throw;
+  }
+}
+
+void Crew::Dismiss() { impl_->board->Close(); }
+
+namespace {
+
+/// Closes a board in the end, whatever happens before.
+class Closing {
+ public:
+  explicit Closing(Board* board) : board_(board) {}
+  ~Closing() {
+    if (board_ != nullptr) board_->Close();
+  }
+  Closing(const Closing&) = delete;
+  Closing& operator=(const Closing&) = delete;
+
+ private:
+  Board* board_;
+};
+
+}  // namespace
+
+void Crew::Run(StagedWork* work) {
+  const bool called_before = impl_->board->open();
+  if (!called_before) Call();
+  const Closing closing(called_before ? nullptr : impl_->board);
+  for (int stage = 0; stage < work->stages() && work->GoOn(stage); ++stage) {
+    impl_->board->DoStage(work, stage);
+  }
+}
+
+}  // namespace cairn

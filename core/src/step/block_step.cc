@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+#include "step/block_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simd/flush_denormals.h"
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+
+/// How close to a bound counts as at the bound, relative to the mean impulse of the island. Floats
+/// know impulses no better.
+constexpr double kActiveTolerance = 1e-6;
+
+/// Where an island is in a step.
+enum Phase : char {
+  kOpen,       ///< its set is predicted, or rows were removed from it: to be solved
+  kRefined,    ///< solved, and its set held
+  kTakenBack,  ///< the last solve is
+  kDone,
+};
+
+}  // namespace
+
+template <class T>
+int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings,
+                       BlockSystem<T>* system, Crew* crew, BlockData* blocks,
+                       std::span<IslandStep> islands) {
+  const simd::FlushDenormals flush;
+  plan_ = &plan;
+  group_ = &plan.groups()[group];
+  blocks_ = blocks;
+  system_ = system;
+  islands_ = islands;
+  Read();
+  Predict();
+
+  // those from whose sets rows had to be removed, again; others are done when they are refined
+  int made = 0;
+  for (; made < settings.factorisations && Any(kOpen); ++made) {
+    WorkOn(kOpen);
+    ForBlocks([](const BlockLaw<T>& law) { law.FindWeights(); });
+    const bool factorised = system->Factorise(plan, *group_, *blocks, weights_, crew);
+    ForIslands([&](int island) {
+      if (phases_[island] != kOpen) return;
+      ++islands_[island].result.factorisations;
+      islands_[island].result.solved = factorised;
+      phases_[island] = factorised ? kRefined : kDone;
+    });
+    if (!factorised) break;
+    if (made > 0) CopyTaken(start_, &x_);
+    Refine();
+    Remove();
+    RefineWhileSetHolds(settings.refinements);
+  }
+  if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Project(); });
+  FindJointSpeeds(&StepResult::solved_joint_speed);
+  if (CondenseJoints(crew)) ++made;
+  Write();
+  return made;
+}
+
+template <class T>
+void BlockStep<T>::Predict() {
+  const auto first = plan_->blocks().begin() + group_->first_block;
+  bounded_ = std::any_of(first, first + group_->blocks, [](const simd::PairBlock& block) {
+    return std::any_of(block.rows, block.rows + block.row_count, [](const simd::RowShape& row) {
+      return row.bound != simd::RowBound::kFree;
+    });
+  });
+  if (!bounded_) {
+    // no row can leave the set
+    std::fill(sides_.begin(), sides_.end(), SideLine{});
+    return;
+  }
+  start_ = x_;
+  ReadVelocities();
+  FindSlack();
+  ForBlocks([](const BlockLaw<T>& law) { law.Predict(); });
+}
+
+template <class T>
+void BlockStep<T>::ReadVelocities() {
+  for (int slot = group_->first_slot; slot < group_->first_slot + group_->slots; ++slot) {
+    const int node = system_->node_of_slot(slot);
+    if (node < 0) continue;
+    const float* const u = blocks_->bodies[slot].u;
+    for (int k = 0; k < 3; ++k) {
+      u_[6 * node + k] = static_cast<T>(u[k]);
+      u_[6 * node + 3 + k] = static_cast<T>(u[4 + k]);
+    }
+  }
+}
+
+template <class T>
+template <class Function>
+void BlockStep<T>::ForIslands(const Function& function) {
+  for (int i : plan_->islands_of_groups().subspan(group_->first_island, group_->islands)) {
+    function(i);
+  }
+}
+
+template <class T>
+bool BlockStep<T>::Any(char phase) {
+  bool any = false;
+  ForIslands([&](int island) { any = any || phases_[island] == phase; });
+  return any;
+}
+
+template <class T>
+void BlockStep<T>::WorkOn(char phase) {
+  for (int b = 0; b < group_->blocks; ++b) {
+    const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
+    for (int l = 0; l < block.lanes; ++l) {
+      const int island = plan_->island_of(group_->first_block + b, l);
+      lanes_[b].taken.lane[l] = phases_[island] == phase ? 1 : 0;
+    }
+  }
+}
+
+template <class T>
+template <class Lines>
+void BlockStep<T>::CopyTaken(const Lines& from, Lines* to) {
+  ForBlocks([&](const BlockLaw<T>& law) {
+    const auto first = static_cast<size_t>(law.x - x_.data());
+    for (int i = 0; i < law.block.row_count; ++i) {
+      for (int l = 0; l < kLanes; ++l) {
+        auto& number = (*to)[first + i].lane[l];
+        number = law.lanes.taken.lane[l] != 0 ? from[first + i].lane[l] : number;
+      }
+    }
+  });
+}
+
+template <class T>
+template <class Function>
+void BlockStep<T>::ForBlocks(const Function& function) {
+  for (int b = 0; b < group_->blocks; ++b) function(LawOf(b));
+}
+
+template <class T>
+BlockLaw<T> BlockStep<T>::LawOf(int b) {
+  const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
+  const size_t x = block.x - static_cast<size_t>(group_->first_x);
+  return {.block = block,
+          .lines = blocks_->data.data() + block.data,
+          .lanes = lanes_[b],
+          .x = x_.data() + x,
+          .slack = slack_.data() + x,
+          .weights = weights_.data() + x,
+          .sides = sides_.data() + x};
+}
+
+template <class T>
+void BlockStep<T>::Read() {
+  const auto lines = static_cast<size_t>(group_->x_lines);
+  for (auto* of_rows : {&x_, &slack_, &weights_, &product_}) of_rows->resize(lines);
+  sides_.resize(lines);
+  u_.resize(6 * static_cast<size_t>(system_->nodes()));
+  du_.resize(u_.size());
+  wanted_.resize(u_.size());
+  for (size_t i = 0; i < lines; ++i) {
+    const simd::Line& x = blocks_->x[static_cast<size_t>(group_->first_x) + i];
+    for (int l = 0; l < kLanes; ++l) x_[i].lane[l] = static_cast<T>(x.lane[l]);
+  }
+  phases_.assign(islands_.size(), kDone);
+  ForIslands([&](int island) {
+    if (islands_[island].taken) phases_[island] = kOpen;
+    islands_[island].result = {};
+  });
+
+  FindTolerances();
+  lanes_.resize(group_->blocks);
+  for (int b = 0; b < group_->blocks; ++b) {
+    LaneSettings<T>& lanes = lanes_[b];
+    const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
+    for (int l = 0; l < kLanes; ++l) {
+      const int island = l < block.lanes ? plan_->island_of(group_->first_block + b, l) : -1;
+      const bool taken = island >= 0 && islands_[island].taken;
+      lanes.taken.lane[l] = 0;
+      lanes.proximal.lane[l] = taken ? static_cast<T>(islands_[island].proximal) : 1;
+      lanes.proximal_joints.lane[l] = taken ? static_cast<T>(islands_[island].proximal_joints) : 1;
+      lanes.tolerance.lane[l] =
+          taken ? static_cast<T>(kActiveTolerance * sums_[island] / counts_[island]) : 0;
+    }
+  }
+}
+
+template <class T>
+void BlockStep<T>::FindTolerances() {
+  sums_.assign(islands_.size(), 0);
+  counts_.assign(islands_.size(), 0);
+  for (int b = group_->first_block; b < group_->first_block + group_->blocks; ++b) {
+    const simd::PairBlock& block = plan_->blocks()[b];
+    for (int l = 0; l < block.lanes; ++l) {
+      const int island = plan_->island_of(b, l);
+      for (int i = 0; i < block.row_count; ++i) {
+        sums_[island] += std::abs(static_cast<double>(blocks_->x[block.x + i].lane[l]));
+      }
+      counts_[island] += block.row_count;
+    }
+  }
+}
+
+template <class T>
+void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v) {
+  std::fill(v->begin(), v->end(), T{0});
+  LineT of_pair[simd::kPairLines];
+  for (int b = 0; b < group_->blocks; ++b) {
+    const BlockLaw<T> law = LawOf(b);
+    const simd::PairBlock& block = law.block;
+    products_.multiply_transposed(
+        block, law.lines, y.data() + (block.x - static_cast<size_t>(group_->first_x)), of_pair);
+    const auto add = [&](int slot, int lane, const LineT* lines) {
+      const int node = system_->node_of_slot(slot);
+      for (int k = 0; k < 6 && node >= 0; ++k) (*v)[6 * node + k] += lines[k].lane[lane];
+    };
+    for (int l = 0; l < block.lanes; ++l) {
+      add(block.a[l], l, of_pair);
+      if (block.form != simd::PairForm::kSingle) add(block.b[l], l, of_pair + 6);
+    }
+  }
+}
+
+template <class T>
+void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
+  LineT of_pair[simd::kPairLines] = {};
+  for (int b = 0; b < group_->blocks; ++b) {
+    const BlockLaw<T> law = LawOf(b);
+    const simd::PairBlock& block = law.block;
+    const auto get = [&](int slot, int lane, LineT* lines) {
+      const int node = system_->node_of_slot(slot);
+      for (int k = 0; k < 6; ++k) lines[k].lane[lane] = node < 0 ? T{0} : v[6 * node + k];
+    };
+    for (int l = 0; l < block.lanes; ++l) {
+      get(block.a[l], l, of_pair);
+      if (block.form != simd::PairForm::kSingle) get(block.b[l], l, of_pair + 6);
+    }
+    products_.multiply(block, law.lines, of_pair,
+                       y->data() + (block.x - static_cast<size_t>(group_->first_x)));
+  }
+}
+
+template <class T>
+void BlockStep<T>::FindSlack() {
+  Multiply(u_, &slack_);
+  ForBlocks([](const BlockLaw<T>& law) { law.FindSlack(); });
+}
+
+/// One solve for the free rows:  H du = G_F' W r,  x_F += W (r - G_F du)  with  r = -w_F.
+template <class T>
+void BlockStep<T>::Refine() {
+  if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Fix(); });
+  MultiplyTransposed(x_, &u_);
+  FindSlack();
+  for (size_t i = 0; i < x_.size(); ++i) {
+    for (int l = 0; l < kLanes; ++l) {
+      product_[i].lane[l] = -(weights_[i].lane[l] * slack_[i].lane[l]);
+    }
+  }
+  MultiplyTransposed(product_, &du_);
+  system_->Solve(du_);
+  Multiply(du_, &product_);
+  for (size_t i = 0; i < x_.size(); ++i) {
+    for (int l = 0; l < kLanes; ++l) {
+      x_[i].lane[l] -= weights_[i].lane[l] * (slack_[i].lane[l] + product_[i].lane[l]);
+    }
+  }
+}
+
+/// Solves again with the same factor while the predicted set holds: each time the error of a mode
+/// with eigenvalue l (relative to d) shrinks by eps / (eps + l), and redundant rows drift apart by
+/// what they contradict each other. The solve after which a row leaves its bounds is taken back.
+template <class T>
+void BlockStep<T>::RefineWhileSetHolds(int refinements) {
+  for (int k = 1; k < refinements && Any(kRefined); ++k) {
+    WorkOn(kRefined);
+    ForBlocks([](const BlockLaw<T>& law) { law.FindWeights(); });
+    before_ = x_;
+    sides_before_ = sides_;
+    Refine();
+    // removing makes those islands open; here that means taking it back
+    const std::vector<char>& phases = phases_before_ = phases_;
+    Remove();
+    ForIslands([&](int island) {
+      if (phases_[island] != phases[island]) phases_[island] = kTakenBack;
+    });
+    WorkOn(kTakenBack);
+    CopyTaken(before_, &x_);
+    CopyTaken(sides_before_, &sides_);
+    ForIslands([&](int island) {
+      if (phases_[island] == kTakenBack) phases_[island] = kDone;
+    });
+  }
+  ForIslands([&](int island) {
+    if (phases_[island] == kRefined) phases_[island] = kDone;
+  });
+}
+
+template <class T>
+void BlockStep<T>::Remove() {
+  if (!bounded_) return;
+  for (int b = 0; b < group_->blocks; ++b) {
+    const std::uint32_t removed = LawOf(b).RemoveViolated();
+    for (int l = 0; l < kLanes && removed != 0; ++l) {
+      if ((removed >> l & 1) == 0) continue;
+      phases_[plan_->island_of(group_->first_block + b, l)] = kOpen;
+    }
+  }
+}
+
+template <class T>
+void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
+  ForBlocks(
+      [this](const BlockLaw<T>& law) { law.CopyWeighted(product_.data() + (law.x - x_.data())); });
+  MultiplyTransposed(product_, out);
+}
+
+/// Solves  (G_J G_J' + eps D) dx_J = G_J (v - G_J' x_J)  some times, from x_J = 0. Its right-hand
+/// side lies in the range of G_J, so that nothing comes of what joints contradict each other.
+template <class T>
+void BlockStep<T>::FindSmallest() {
+  MultiplyWeighted(&wanted_);
+  ForBlocks([](const BlockLaw<T>& law) { law.ClearWeighted(); });
+  for (int k = 0; k < kCondensingSolves; ++k) {
+    MultiplyWeighted(&u_);
+    for (size_t i = 0; i < u_.size(); ++i) u_[i] = wanted_[i] - u_[i];
+    Multiply(u_, &slack_);
+    for (size_t i = 0; i < x_.size(); ++i) {
+      for (int l = 0; l < kLanes; ++l) {
+        product_[i].lane[l] =
+            weights_[i].lane[l] != 0 ? weights_[i].lane[l] * slack_[i].lane[l] : T{0};
+      }
+    }
+    MultiplyTransposed(product_, &du_);
+    system_->Solve(du_);
+    Multiply(du_, &product_);
+    for (size_t i = 0; i < x_.size(); ++i) {
+      for (int l = 0; l < kLanes; ++l) {
+        if (weights_[i].lane[l] == 0) continue;
+        x_[i].lane[l] += weights_[i].lane[l] * (slack_[i].lane[l] - product_[i].lane[l]);
+      }
+    }
+  }
+}
+
+template <class T>
+bool BlockStep<T>::CondenseJoints(Crew* crew) {
+  bool any = false;
+  ForIslands([&](int island) {
+    const bool wanted = islands_[island].condense_joints && islands_[island].result.solved;
+    phases_[island] = wanted ? kOpen : kDone;
+    any = any || wanted;
+  });
+  if (any) {
+    WorkOn(kOpen);
+    ForBlocks([](const BlockLaw<T>& law) { law.FindJointWeights(); });
+    before_ = x_;
+    if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew)) FindSmallest();
+  }
+  FindJointSpeeds(&StepResult::joint_speed);
+  if (!any) return false;
+  ForIslands([&](int island) {
+    StepResult& result = islands_[island].result;
+    if (phases_[island] != kOpen || result.joint_speed <= kCondensed * result.solved_joint_speed) {
+      return;
+    }
+    phases_[island] = kTakenBack;
+    result.joint_speed = result.solved_joint_speed;
+  });
+  WorkOn(kTakenBack);
+  CopyTaken(before_, &x_);
+  return true;
+}
+
+template <class T>
+void BlockStep<T>::FindJointSpeeds(double StepResult::*of) {
+  for (int b = 0; b < group_->blocks; ++b) {
+    const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
+    const LineT speeds = LawOf(b).FindJointSpeeds();
+    for (int l = 0; l < block.lanes; ++l) {
+      double& speed = islands_[plan_->island_of(group_->first_block + b, l)].result.*of;
+      speed = std::max(speed, static_cast<double>(speeds.lane[l]));
+    }
+  }
+}
+
+template <class T>
+void BlockStep<T>::Write() {
+  // u from the impulses as floats have them
+  for (LineT& x : x_) {
+    for (int l = 0; l < kLanes; ++l) x.lane[l] = static_cast<T>(static_cast<float>(x.lane[l]));
+  }
+  MultiplyTransposed(x_, &u_);
+
+  for (int b = 0; b < group_->blocks; ++b) {
+    const BlockLaw<T> law = LawOf(b);
+    const simd::PairBlock& block = law.block;
+    const auto write = [&](int slot) {
+      const int node = system_->node_of_slot(slot);
+      if (node < 0) return;
+      float* const u = blocks_->bodies[slot].u;
+      for (int k = 0; k < 3; ++k) {
+        u[k] = static_cast<float>(u_[6 * node + k]);
+        u[4 + k] = static_cast<float>(u_[6 * node + 3 + k]);
+      }
+    };
+    for (int l = 0; l < block.lanes; ++l) {
+      if (!islands_[plan_->island_of(group_->first_block + b, l)].result.solved) continue;
+      for (int i = 0; i < block.row_count; ++i) {
+        blocks_->x[block.x + i].lane[l] = static_cast<float>(law.x[i].lane[l]);
+      }
+      write(block.a[l]);
+      if (block.form != simd::PairForm::kSingle) write(block.b[l]);
+    }
+  }
+}
+
+template class BlockStep<float>;
+template class BlockStep<double>;
+
+}  // namespace cairn

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pack/block_pack.h"
+#include "plan/plan.h"
+#include "simd/pair_products.h"
+#include "step/block_law.h"
+#include "step/block_system.h"
+#include "step/step_settings.h"
+
+namespace cairn {
+
+/// What an island brings to a step, and what becomes of it; by island of the plan.
+struct IslandStep {
+  bool taken = false;                        ///< the island takes it; for others nothing changes
+  double proximal = 0, proximal_joints = 0;  ///< see StepSettings
+  bool condense_joints = false;              ///< likewise
+  StepResult result = {};                    ///< out
+};
+
+/// TakeStep() for islands of a group that is in blocks, each as if it were alone, on numbers of its
+/// own in float or in double precision.
+template <class T>
+class BlockStep {
+ public:
+  explicit BlockStep(simd::Target target) : products_(simd::PairProductsFor<T>(target)) {}
+
+  /// @p islands: one for each of the plan. Of the settings, those of IslandStep are not
+  /// used. An island whose system could not be factorised stays as it is. Returns how many
+  /// factorisations were made in all.
+  /// @pre system->IsPreparedFor() this group
+  int Take(const Plan& plan, int group, const StepSettings& settings, BlockSystem<T>* system,
+           Crew* crew, BlockData* blocks, std::span<IslandStep> islands);
+
+ private:
+  using LineT = simd::LineOf<T>;
+
+  void Read();
+  void FindTolerances();
+  void Predict();
+  /// u as the sweeps left it: floats that x belongs to but for rounding.
+  void ReadVelocities();
+  void FindSlack();
+  void Refine();
+  void RefineWhileSetHolds(int refinements);
+  void Remove();
+  /// Brings joints of islands that ask for it to their smallest impulses. Whether there were any.
+  bool CondenseJoints(Crew* crew);
+  /// Those of rows that have a weight, as they move bodies now.
+  void FindSmallest();
+  /// out := G_J' x_J of rows that have a weight
+  void MultiplyWeighted(std::vector<T>* out);
+  void FindJointSpeeds(double StepResult::*speed);
+  void Write();
+  /// function(island) for those of the group
+  template <class Function>
+  void ForIslands(const Function& function);
+  bool Any(char phase);
+  /// Work is on islands in this phase from now on.
+  void WorkOn(char phase);
+  /// to := from, in lanes that are worked on.
+  template <class Lines>
+  void CopyTaken(const Lines& from, Lines* to);
+
+  /// function(law) for every block of the group
+  template <class Function>
+  void ForBlocks(const Function& function);
+  BlockLaw<T> LawOf(int block);
+  /// v := G' y, by node.
+  void MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v);
+  /// y := G v
+  void Multiply(const std::vector<T>& v, std::vector<LineT>* y);
+
+  const simd::PairProducts<T>& products_;
+  const Plan* plan_ = nullptr;
+  const Group* group_ = nullptr;
+  BlockData* blocks_ = nullptr;
+  BlockSystem<T>* system_ = nullptr;
+  std::span<IslandStep> islands_;
+  bool bounded_ = false;                      ///< some row of the group has bounds
+  std::vector<char> phases_, phases_before_;  ///< by island
+
+  std::vector<LaneSettings<T>> lanes_;  ///< by block
+  std::vector<LineT> x_, start_, before_, slack_, weights_, product_;
+  std::vector<SideLine> sides_, sides_before_;
+  std::vector<T> u_, du_, wanted_;  ///< six numbers a node
+  std::vector<double> sums_, counts_;
+};
+
+extern template class BlockStep<float>;
+extern template class BlockStep<double>;
+
+}  // namespace cairn

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "step/block_system.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+
+/// A graph that was analysed for more pairs than there are is kept while there are this many of
+/// them: what it wastes is less than a new analysis costs.
+constexpr double kLeastShareOfPairs = 0.8;
+/// Weight of the last analysis in the mean of steps that one serves.
+constexpr double kNewestAnalysis = 0.5;
+
+}  // namespace
+
+template <class T>
+BlockSystem<T>::BlockSystem(simd::Target target)
+    : products_(simd::PairProductsFor<T>(target)), cholesky_(target) {}
+
+template <class T>
+bool BlockSystem<T>::Recognise(const Plan& plan, int plan_number, int index) {
+  if (IsFor(plan_number, index)) return prepared_;
+  plan_number_ = plan_number;
+  group_ = index;
+  const Group& group = plan.groups()[index];
+  FindBodies(plan, group);
+  CountLanes(plan, group);
+  prepared_ = bodies_now_ == bodies_ && FindLanes(plan, group);
+  return prepared_;
+}
+
+template <class T>
+void BlockSystem<T>::Analyse(const Plan& plan) {
+  const Group& group = plan.groups()[group_];
+  if (bodies_now_ != bodies_) pairs_.clear();
+  if (!bodies_.empty()) {
+    expected_steps_ += kNewestAnalysis * (std::max(1.0, steps_) - expected_steps_);
+  }
+  steps_ = 0;
+  bodies_ = bodies_now_;
+  FindPairs(plan, group);
+  cholesky_.Analyse(nodes(), 6, pairs_);
+  FindLanes(plan, group);
+  prepared_ = true;
+}
+
+template <class T>
+void BlockSystem<T>::FindBodies(const Plan& plan, const Group& group) {
+  first_slot_ = group.first_slot;
+  bodies_now_.clear();
+  for (int body : plan.body_of_slot().subspan(group.first_slot, group.slots)) {
+    if (body != kWorld) bodies_now_.push_back(body);
+  }
+  std::sort(bodies_now_.begin(), bodies_now_.end());
+  node_of_slot_.assign(group.slots, -1);
+  for (size_t node = 0; node < bodies_now_.size(); ++node) {
+    const int slot = plan.slot_of_body()[bodies_now_[node]];
+    node_of_slot_[slot - first_slot_] = static_cast<int>(node);
+  }
+}
+
+template <class T>
+void BlockSystem<T>::CountLanes(const Plan& plan, const Group& group) {
+  lanes_ = 0;
+  for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
+    lanes_ += block.form == simd::PairForm::kSingle ? 0 : block.lanes;
+  }
+}
+
+template <class T>
+NodePair BlockSystem<T>::PairOf(const simd::PairBlock& block, int lane) const {
+  const int a = node_of_slot(block.a[lane]), b = node_of_slot(block.b[lane]);
+  return a < b ? NodePair(a, b) : NodePair(b, a);
+}
+
+template <class T>
+void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
+  known_pairs_.swap(pairs_);
+  pairs_.clear();
+  for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
+    if (block.form == simd::PairForm::kSingle) continue;
+    for (int lane = 0; lane < block.lanes; ++lane) pairs_.push_back(PairOf(block, lane));
+  }
+  std::sort(pairs_.begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+
+  // what comes and goes keeps its place
+  const double now = static_cast<double>(pairs_.size());
+  all_pairs_.clear();
+  std::set_union(pairs_.begin(), pairs_.end(), known_pairs_.begin(), known_pairs_.end(),
+                 std::back_inserter(all_pairs_));
+  if (kLeastShareOfPairs * static_cast<double>(all_pairs_.size()) <= now) pairs_.swap(all_pairs_);
+}
+
+template <class T>
+bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
+  pair_of_lane_.assign(static_cast<size_t>(group.blocks) * kLanes, -1);
+  size_t at = 0;
+  for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
+    const bool joins = block.form != simd::PairForm::kSingle;
+    for (int lane = 0; lane < block.lanes && joins; ++lane) {
+      const NodePair pair = PairOf(block, lane);
+      const auto known = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
+      if (known == pairs_.end() || *known != pair) return false;
+      pair_of_lane_[at + static_cast<size_t>(lane)] = static_cast<int>(known - pairs_.begin());
+    }
+    at += kLanes;
+  }
+  return lanes_ >= kLeastShareOfPairs * static_cast<double>(pairs_.size());
+}
+
+template <class T>
+bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
+                               std::span<const simd::LineOf<T>> weights, Crew* crew) {
+  cholesky_.SetZero();
+  for (int node = 0; node < nodes(); ++node) {
+    for (int k = 0; k < 6; ++k) cholesky_.diagonal(node)[7 * k] = 1;
+  }
+  simd::LineOf<T> gram[simd::kGramLines];
+  for (int b = 0; b < group.blocks; ++b) {
+    const simd::PairBlock& block = plan.blocks()[group.first_block + b];
+    const auto x = static_cast<size_t>(block.x - static_cast<std::uint32_t>(group.first_x));
+    products_.weighted_gram(block, blocks.data.data() + block.data, weights.data() + x, gram);
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      AddLane(block, lane, pair_of_lane_[static_cast<size_t>(b) * kLanes + lane], gram);
+    }
+  }
+  const SpanClock clock(crew != nullptr ? crew->recorder() : nullptr, 0, {SpanKind::kFactorise});
+  return cholesky_.Factorise(crew);
+}
+
+template <class T>
+void BlockSystem<T>::AddLane(const simd::PairBlock& block, int lane, int pair,
+                             const simd::LineOf<T>* gram) {
+  const auto add_triangle = [&](int node, const simd::LineOf<T>* lines) {
+    if (node < 0) return;
+    T* const to = cholesky_.diagonal(node);
+    for (int c = 0; c < 6; ++c) {
+      for (int r = c; r < 6; ++r) to[6 * c + r] += (lines++)->lane[lane];
+    }
+  };
+  const int a = node_of_slot(block.a[lane]);
+  add_triangle(a, gram);
+  if (block.form == simd::PairForm::kSingle) return;
+  const int b = node_of_slot(block.b[lane]);
+  const simd::LineOf<T>* const square = gram + simd::kTriangleLines;
+  add_triangle(b, square + simd::kSquareLines);
+
+  // rows of a and columns of b, or turned round
+  T* const to = cholesky_.upper(pair);
+  const int row = a < b ? 1 : 6, column = a < b ? 6 : 1;
+  for (int c = 0; c < 6; ++c) {
+    for (int r = 0; r < 6; ++r) to[column * c + row * r] += square[6 * c + r].lane[lane];
+  }
+}
+
+template class BlockSystem<float>;
+template class BlockSystem<double>;
+
+}  // namespace cairn

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cholesky/front_cholesky.h"
+#include "pack/block_pack.h"
+#include "plan/plan.h"
+#include "runtime/crew.h"
+#include "simd/pair_products.h"
+
+namespace cairn {
+
+/// The reduced system of a group in body space, H = I + G_F' W G_F with a weight for each free row,
+/// from rows in blocks. By the Woodbury identity it answers what the paper's (G_F G_F' + W^-1)
+/// asks, but it is positive definite however redundant the rows are, and its pattern, the body
+/// graph, does not change with the set.
+template <class T>
+class BlockSystem {
+ public:
+  explicit BlockSystem(simd::Target target);
+
+  /// Finds the bodies of the group and which of them touch. False if that graph has to be analysed:
+  /// if the one that was last analysed does not hold it, or much more. @p plan_number: changes with
+  /// the plan.
+  bool Recognise(const Plan& plan, int plan_number, int group);
+  /// Recognise() was the last call for this group of this plan, and the graph is ready.
+  bool IsPreparedFor(int plan_number, int group) const {
+    return prepared_ && IsFor(plan_number, group);
+  }
+  /// Analyses the graph that was not recognised. Pairs of the one before stay in it if they are
+  /// few.
+  void Analyse(const Plan& plan);
+  /// Bodies and pairs of bodies of the group: what an analysis is to look at.
+  double graph_size() const { return static_cast<double>(nodes() + lanes_); }
+  /// How many steps an analysis is expected to serve, >= 1: a mean that forgets.
+  double steps_of_analysis() const { return std::max(expected_steps_, steps_); }
+  void CountStep() { ++steps_; }
+
+  /// Multiply-adds of a factorisation, and entries of the factor.
+  double flops() const { return cholesky_.pattern().flops(); }
+  double nonzeros() const { return cholesky_.pattern().nonzeros(); }
+
+  /// Bodies of the group that can move: each is a node.
+  int nodes() const { return static_cast<int>(bodies_now_.size()); }
+  /// The node of a slot, -1 for the world.
+  int node_of_slot(int slot) const {
+    return slot == 0 ? -1 : node_of_slot_[static_cast<size_t>(slot - first_slot_)];
+  }
+
+  /// Assembles and factorises. @p weights: one line for each x line of the group; rows of weight 0
+  /// are left out. False if rounding made H indefinite.
+  /// @pre IsPreparedFor() this group of this plan
+  [[nodiscard]] bool Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
+                               std::span<const simd::LineOf<T>> weights, Crew* crew);
+  /// Solves H v = rhs in place, six numbers a node.
+  void Solve(std::span<T> rhs) { cholesky_.Solve(rhs); }
+
+ private:
+  bool IsFor(int plan_number, int group) const {
+    return plan_number == plan_number_ && group == group_;
+  }
+  void FindBodies(const Plan& plan, const Group& group);
+  void CountLanes(const Plan& plan, const Group& group);
+  bool FindLanes(const Plan& plan, const Group& group);
+  void FindPairs(const Plan& plan, const Group& group);
+  NodePair PairOf(const simd::PairBlock& block, int lane) const;
+  void AddLane(const simd::PairBlock& block, int lane, int pair, const simd::LineOf<T>* gram);
+
+  const simd::PairProducts<T>& products_;
+  FrontCholesky<T> cholesky_;
+  bool prepared_ = false;
+  int plan_number_ = -1, group_ = -1;
+  int first_slot_ = 0;
+  std::vector<int> bodies_, bodies_now_;  ///< ascending problem indices
+  std::vector<int> node_of_slot_;
+  std::vector<NodePair> pairs_;  ///< of the analysed graph
+  std::vector<NodePair> known_pairs_, all_pairs_;
+  std::vector<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
+  int lanes_ = 0;                  ///< where two do
+  double steps_ = 0, expected_steps_ = kExpectedSteps;  ///< of this analysis, and of others
+
+  /// Before anything is known: what begins to be piled up goes on so for some frames.
+  static constexpr double kExpectedSteps = 4;
+};
+
+extern template class BlockSystem<float>;
+extern template class BlockSystem<double>;
+
+}  // namespace cairn

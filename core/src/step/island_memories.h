@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <unordered_map>
+
+#include "cairn/contact_problem.h"
+#include "step/island_memory.h"
+
+namespace cairn {
+
+/// What was learnt about each island, from frame to frame.
+class IslandMemories {
+ public:
+  /// What a body is known by: its name, or its place without one.
+  static std::uint64_t KeyOf(const Body& body, int place);
+  /// The memory of an island, by the smallest key of its bodies and the place of the first. It
+  /// stays where it is until EndFrame().
+  IslandMemory* Recall(std::uint64_t key, int first_body);
+  /// The same. @p bodies: ascending
+  IslandMemory* Recall(const ContactProblem& problem, std::span<const int> bodies);
+  /// Drops islands that have not been seen for a while.
+  void EndFrame();
+
+ private:
+  /// Small, as all of them are looked at in every frame.
+  struct Remembered {
+    std::unique_ptr<IslandMemory> memory = std::make_unique<IslandMemory>();
+    std::int64_t last_frame = 0;
+  };
+
+  std::unordered_map<std::uint64_t, Remembered> memories_;
+  std::int64_t frame_ = 1;
+};
+
+}  // namespace cairn

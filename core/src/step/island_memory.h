@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "cairn/settings.h"
+#include "step/block_system.h"
+#include "step/step_odds.h"
+#include "step/step_settings.h"
+
+namespace cairn {
+
+class BodySystem;
+
+/// What the solver remembers of an island from frame to frame: the analysed system, the proximal
+/// term that worked, and whether steps pay.
+class IslandMemory {
+ public:
+  StepSettings Step(const Settings& settings) const;
+
+  /// Whether no step failed here of late: one opportunity less to be passed over, if not.
+  bool Due(const Settings& settings);
+  /// Steps are too dear here: to be asked again after a while.
+  void Postpone();
+  /// How far the proximal term falls where steps succeed, relative to what is set: with ten sweeps
+  /// around every step, what is smaller excites contacts that come and go.
+  static constexpr double kLeastSoftening = 1.0 / 4;
+  /// @param least  factor on Settings::proximal that successes bring it down to, > 0
+  void Accepted(double least = kLeastSoftening);
+  void Restored();
+  /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
+  void Guarded();
+  /// How large impulses of joints were in a step. Where they are larger than floats can hold
+  /// against each other, joints are redundant, and are condensed from then on; where that is not
+  /// enough, softened, too.
+  void SawJoints(const StepResult& result);
+  bool condenses_joints() const { return joint_level_ > 0; }
+
+  /// What a factorisation and its step last cost here, for each row, in the units of the caller; 0
+  /// if that is not known.
+  double price_of_row() const { return price_of_row_; }
+  void RememberPrice(double of_row) { price_of_row_ = of_row; }
+
+  /// Of blocks under a budget: what steps and sweeps gain here.
+  StepOdds& odds() { return odds_; }
+
+  /// Of the double-precision path, which makes it.
+  std::shared_ptr<BodySystem>& body_system() { return body_system_; }
+  /// For steps on blocks: of the group whose first island this is.
+  template <class T>
+  BlockSystem<T>& block_system(simd::Target target);
+
+ private:
+  std::shared_ptr<BodySystem> body_system_;
+  std::unique_ptr<BlockSystem<float>> float_system_;
+  std::unique_ptr<BlockSystem<double>> double_system_;
+  StepOdds odds_;
+  double softening_ = 1;  ///< factor on Settings::proximal
+  double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
+  double price_of_row_ = 0;
+  int strikes_ = 0;                   ///< rejections in a row
+  int pause_ = 0;                     ///< opportunities still to be passed over
+  int guards_ = 0, guard_pause_ = 0;  ///< how often of late, and likewise after one
+  /// How much is done about redundant joints, steps in a row without need for it, and steps until
+  /// they are looked at again.
+  int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = 60;
+};
+
+}  // namespace cairn

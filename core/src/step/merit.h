@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/settings.h"
+#include "pack/block_frame.h"
+#include "sweep/block_sweep.h"
+
+namespace cairn {
+
+/// What the problem minimises over the impulses inside their bounds, with those of friction frozen:
+///
+///     phi(x) = 1/2 |u|^2 + 1/2 x'E x - b'x,   u = G'x,   b = target - J v_free,
+///
+/// 0 without impulses. 1/2 |v_free + M^-1 J'x|^2_M, the kinetic energy after the step, is
+/// phi(x) + target'x - 1/2 x'E x more than before. So what is not above 0 puts in no more energy
+/// than its targets do; docs/solver.md derives a bound from the problem alone.
+struct Merit {
+  double square = 0;        ///< |u|^2 + x'E x [J]
+  double gain = 0;          ///< b'x [J]
+  bool may_be_none = true;  ///< impulses of 0 are inside their bounds
+
+  double value() const { return square / 2 - gain; }
+  /// The impulses put in energy that nothing asks for: none at all would be better. Every state
+  /// that sweeps come to from none passes, and every solution by far.
+  bool is_worse_than_none() const;
+  /// Factor in [0, 1] on all impulses that brings phi to its least.
+  double best_scale() const;
+};
+
+/// What a step and the sweeps after it made of an island, and as many sweeps alone.
+struct StepTrial {
+  double with_step, alone;  ///< Residual::energy
+  bool closer;              ///< phi is lower with the step: its velocities are closer
+
+  /// Residuals see how rough a step leaves an island, and not how far it is from its solution. They
+  /// decide where phi cannot: redundant rows that contradict each other lower it the larger they
+  /// get. What is not a number is not kept.
+  bool is_better_alone() const {
+    return !(with_step <= alone) && !(closer && with_step <= kMostRoughness * alone);
+  }
+  static constexpr double kMostRoughness = 4;
+};
+
+/// Impulses of joints, see StepResult::joint_speed, that no step may leave: floats round them by
+/// 6 cm/s.
+inline bool IsTooMuch(double joint_speed) { return !(joint_speed <= 1e6); }
+
+/// Whether impulses are guarded at all. Plain methods are what their names say, who asks for no
+/// sweeps wants the start, and friction that is held is no minimum of anything.
+bool IsGuarded(const Settings& settings);
+
+/// Merits of islands in blocks, the same for an island whatever shares its lanes.
+class IslandMerits {
+ public:
+  /// Of the islands of active groups; others keep theirs.
+  void Find(BlockFrame* frame, std::span<const GroupSweeps> groups);
+  const Merit& of(int island) const { return merits_[island]; }
+
+ private:
+  void FindOfGroup(BlockFrame* frame, const Group& group);
+  /// Sums of numbers that do not depend on their order.
+  void Add(const Plan& plan, const Group& group);
+
+  std::vector<Merit> merits_, largest_;
+  struct Part {
+    int island;
+    Merit merit;
+  };
+  std::vector<Part> parts_;
+};
+
+/// ScaleState() of an island in blocks.
+void ScaleIsland(const Plan& plan, int island, double factor, BlockData* blocks);
+
+}  // namespace cairn

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "step/step_odds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+/// Weight of the newest measurement, and of the first one against what is thought without.
+constexpr double kNewest = 0.3, kFirst = 0.7;
+/// By which what is known of steps fades in a frame without.
+constexpr double kFade = 0.01;
+/// What a further step of a frame is expected to do, of the first.
+constexpr double kLater = 0.5;
+/// Frames after which the power of sweeps is measured again, in one without steps if need be.
+constexpr int kMeasureAgain = 64;
+constexpr double kLeastPower = 0.05, kMostPower = 20;
+/// The same of logarithms: what is more is rounding.
+constexpr double kMostCut = 8;
+
+void Learn(double measured, bool* known, double* mean) {
+  *mean += (*known ? kNewest : kFirst) * (measured - *mean);
+  *known = true;
+}
+
+}  // namespace
+
+double StepOdds::PricesLeft(double gain) {
+  // a step has to cut more than the power() of left / (left - price), what sweeps do meanwhile
+  if (gain <= 0) return std::numeric_limits<double>::infinity();
+  return -1 / std::expm1(-gain);
+}
+
+double StepOdds::PowerOf(int from, int to, double share) {
+  if (from <= 0 || to <= from) return 0;
+  if (!(share > 0)) return std::numeric_limits<double>::infinity();
+  return -std::log(share) / std::log(static_cast<double>(to) / from);
+}
+
+void StepOdds::LearnSweeps(double power) {
+  Learn(std::clamp(power, kLeastPower, kMostPower), &power_known_, &power_);
+  age_ = 0;
+}
+
+void StepOdds::LearnStep(int steps, double share) {
+  Cut& cut = steps == 0 ? first_ : later_;
+  Learn(std::clamp(-std::log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
+}
+
+void StepOdds::Expect(double cut) {
+  expected_ = cut;
+  if (!first_.known) first_.cut = expected_;
+  if (!later_.known) later_.cut = kLater * expected_;
+}
+
+void StepOdds::EndFrame(bool stepped) {
+  ++age_;
+  if (stepped) return;
+  if (stale()) age_ = 0;
+  first_.cut += kFade * (expected_ - first_.cut);
+  later_.cut += kFade * (kLater * expected_ - later_.cut);
+}
+
+bool StepOdds::stale() const { return age_ >= (power_known_ ? kMeasureAgain : 1); }
+
+}  // namespace cairn

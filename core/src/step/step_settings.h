@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace cairn {
+
+struct StepSettings {
+  double proximal;         ///< Settings::proximal, as adapted to the island
+  double proximal_joints;  ///< Settings::proximal_joints
+  int factorisations;      ///< at most, >= 1
+  int refinements;         ///< solves with each factor, >= 1
+  /// Whether impulses of joints become the smallest ones that move bodies as they do. Redundant
+  /// joints contradict each other, and each step answers that with impulses of the contradiction
+  /// divided by proximal_joints that cancel each other, and pile up from frame to frame. It takes
+  /// one more factorisation.
+  bool condense_joints = false;
+};
+
+struct StepResult {
+  bool solved = false;  ///< false: a system could not be factorised, and the state is as it was
+  int factorisations = 0;
+  /// Largest d |x| of rows without bounds before they are condensed, and after the step [m/s] or
+  /// [rad/s]: what an impulse would change its own row by, and so what floats round at 6e-8 of.
+  double solved_joint_speed = 0, joint_speed = 0;
+};
+
+/// Solves with its factor that condensing joints takes: each leaves eps / (eps + l) of the velocity
+/// along a mode with eigenvalue l unanswered.
+inline constexpr int kCondensingSolves = 3;
+/// Where condensed impulses of joints are still more than this share of what they were, joints are
+/// not redundant but carry much: they are left as they were.
+inline constexpr double kCondensed = 0.5;
+
+}  // namespace cairn

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/settings.h"
+#include "pack/block_frame.h"
+#include "runtime/budget.h"
+#include "runtime/crew.h"
+
+namespace cairn {
+
+/// What sweeps need to know of a group, and say of it.
+struct GroupSweeps {
+  bool active = false;
+  int sweeps = 0;  ///< made so far
+};
+
+/// Sweeps over the groups that are active, by whoever of the crew is there. Between stages the
+/// budget is looked at: at most 8192 rows.
+class BlockSweeps {
+ public:
+  /// What a measurement costs, in sweeps.
+  static constexpr double kMeasureSweeps = 0.6;
+
+  BlockSweeps(BlockFrame* frame, const Settings& settings, BudgetMeter* meter, Crew* crew)
+      : frame_(frame), settings_(settings), meter_(meter), crew_(crew) {}
+
+  /// Makes @p count sweeps, the last one measured (BlockFrame::errors()). False if the budget ended
+  /// first: what is done stays, a valid state, and complete sweeps count.
+  bool Sweep(int count, std::span<GroupSweeps> groups);
+  /// One measured sweep, to its end.
+  void SweepWhole(std::span<GroupSweeps> groups);
+
+  /// Natural residuals of the active groups, into BlockFrame::errors().
+  void Measure(std::span<const GroupSweeps> groups);
+  /// Residuals likewise, free of charge: to keep and to write results, not to get to them.
+  void MeasureFree(std::span<const GroupSweeps> groups);
+
+  /// What the errors of a group amount to, for each of its islands, into one entry for each of the
+  /// plan.
+  void ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const;
+
+ private:
+  class Pass;
+  /// Returns how many sweeps were made.
+  int Run(Pass* pass, std::span<GroupSweeps> groups);
+  void MeasureAt(double price, std::span<const GroupSweeps> groups);
+  /// The same of a group that is one island.
+  Residual ErrorOfGroup(const Group& group) const;
+  /// function(errors of a block, block, lane)
+  template <class Function>
+  void ForLanes(const Group& group, const Function& function) const;
+
+  BlockFrame* frame_;
+  const Settings& settings_;
+  BudgetMeter* meter_;
+  Crew* crew_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "sweep/nncg.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace cairn {
+namespace {
+
+/// The island of what belongs to none, as in Plan::islands_of().
+constexpr int kNone = -1;
+
+}  // namespace
+
+/// Blocks of each unit of the plan, and the bodies of each group.
+class Nncg::Pass final : public StagedWork {
+ public:
+  Pass(std::span<const GroupSweeps> groups, BlockFrame* frame, Nncg* nncg)
+      : groups_(groups),
+        plan_(frame->plan()),
+        kernels_(frame->lane_kernels()),
+        now_(frame->blocks()),
+        nncg_(*nncg) {}
+
+  int stages() const override { return 1; }
+  int units(int) const override {
+    return static_cast<int>(plan_.units().size() + plan_.groups().size());
+  }
+  /// The beginning of the sweep that follows.
+  SpanLabel label(int) const override {
+    int sweep = 0;
+    for (const GroupSweeps& group : groups_) sweep = group.active ? group.sweeps : sweep;
+    return {SpanKind::kSweep, sweep};
+  }
+  void Do(int, int unit) override {
+    const int blocks = static_cast<int>(plan_.units().size());
+    const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
+    if (!groups_[group].active) return;
+    if (unit < blocks) {
+      MoveImpulses(plan_.units()[unit]);
+    } else {
+      MoveBodies(plan_.groups()[group]);
+    }
+  }
+
+ private:
+  void MoveImpulses(const Unit& unit) {
+    for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
+      const simd::PairBlock& block = plan_.blocks()[b];
+      kernels_.move_lines(
+          &nncg_.WayOf(0), plan_.islands_of(b), block.row_count,
+          {&now_.x[block.x], &nncg_.last_.x[block.x], &nncg_.direction_.x[block.x]});
+    }
+  }
+
+  void MoveBodies(const Group& group) {
+    const auto of_group = [&](auto& bodies) { return bodies.data() + group.first_slot; };
+    kernels_.move_bodies(
+        &nncg_.WayOf(0), of_group(nncg_.island_of_slot_), group.slots,
+        {of_group(now_.bodies), of_group(nncg_.last_.bodies), of_group(nncg_.direction_.bodies)});
+  }
+
+  std::span<const GroupSweeps> groups_;
+  const Plan& plan_;
+  const simd::LaneKernels& kernels_;
+  BlockData& now_;
+  Nncg& nncg_;
+};
+
+void Nncg::Begin(const BlockFrame& frame) {
+  ways_.assign(frame.plan().islands().size() + 1, {});
+  energies_.assign(frame.plan().islands().size(), 0);
+  known_ = false;
+  if (plan_number_ == frame.plan_number()) return;
+  plan_number_ = frame.plan_number();
+  ReadPlan(frame.plan());
+}
+
+void Nncg::ReadPlan(const Plan& plan) {
+  FindEnds(plan);
+  island_of_slot_.clear();
+  for (int body : plan.body_of_slot()) {
+    island_of_slot_.push_back(body == kWorld ? kNone : plan.island_of_body()[body]);
+  }
+}
+
+void Nncg::FindEnds(const Plan& plan) {
+  constexpr int kAll = simd::RowShape{}.max_sweeps;
+  ends_.clear();
+  newest_end_.assign(plan.islands().size(), kAll);
+  for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    int before = kAll;  // rows of a block mostly end together, as do those of an island
+    for (const simd::RowShape& row : std::span(block.rows, block.row_count)) {
+      if (std::exchange(before, row.max_sweeps) == row.max_sweeps || row.max_sweeps == kAll)
+        continue;
+      for (int l = 0; l < block.lanes; ++l) {
+        const int island = plan.island_of(b, l);
+        const int newest = std::exchange(newest_end_[island], row.max_sweeps);
+        if (newest != row.max_sweeps) ends_.push_back({row.max_sweeps, island});
+      }
+    }
+  }
+  std::sort(ends_.begin(), ends_.end());
+  ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
+}
+
+void Nncg::ForgetWhereRowsEnd(int sweeps) {
+  for (const End& end : ends_) {
+    if (end.sweeps == sweeps) Forget(end.island);
+  }
+}
+
+void Nncg::Forget(int island) {
+  WayOf(island) = {};
+  energies_[island] = 0;
+}
+
+void Nncg::ForgetAll() {
+  std::fill(ways_.begin(), ways_.end(), simd::Way{});
+  std::fill(energies_.begin(), energies_.end(), 0);
+}
+
+void Nncg::See(int island, double energy) {
+  const double before = std::exchange(energies_[island], energy);
+  const double ratio = before == 0 ? 0 : energy / before;
+  const bool shrinks = ratio <= 1;
+  WayOf(island) = {.beta = shrinks ? static_cast<float>(ratio * ratio) : 0,
+                   .keep = shrinks ? 1.0f : 0.0f};
+}
+
+void Nncg::MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame) {
+  BlockData& now = frame->blocks();
+  if (!known_) {
+    // resize() would copy what is overwritten anyway
+    last_.x.assign(now.x.begin(), now.x.end());
+    last_.bodies.assign(now.bodies.begin(), now.bodies.end());
+    direction_.x.assign(now.x.size(), {});
+    direction_.bodies.assign(now.bodies.size(), {});
+    known_ = true;
+    return;
+  }
+  Pass pass(groups, frame, this);
+  crew->Run(&pass);
+}
+
+}  // namespace cairn

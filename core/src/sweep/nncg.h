@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "pack/block_frame.h"
+#include "runtime/crew.h"
+#include "sweep/block_sweep.h"
+
+namespace cairn {
+
+/// Nonsmooth nonlinear conjugate gradients over sweeps (Silcowitz-Niebe and Erleben 2010): before a
+/// sweep the state is moved on along what the last ones changed, by the ratio of squared steps that
+/// Fletcher and Reeves give; where steps grow, an island starts anew. Other than there and in
+/// Bullet, steps are measured in energy, so that light bodies do not drown among heavy ones, and
+/// what is moved out of its bounds is brought back by the sweep that has to follow.
+///
+/// u is moved along with the impulses, which costs no product with G.
+class Nncg {
+ public:
+  /// What moving on costs, in sweeps.
+  static constexpr double kSweeps = 0.3;
+
+  /// A frame that has begun.
+  void Begin(const BlockFrame& frame);
+  /// The state of an island was changed by something else: it has no direction.
+  void Forget(int island);
+  /// Likewise islands of rows that take part in so many sweeps and no more: they are not to be
+  /// moved, as no sweep would bring them back into their bounds.
+  void ForgetWhereRowsEnd(int sweeps);
+  void ForgetAll();
+  /// What the last sweep changed on an island [sqrt(J)], see Residual::energy.
+  void See(int island, double energy);
+  /// Moves the state of the active groups on. A whole sweep has to follow.
+  void MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame);
+
+ private:
+  class Pass;
+  void ReadPlan(const Plan& plan);
+  void FindEnds(const Plan& plan);
+  simd::Way& WayOf(int island) { return ways_[static_cast<size_t>(island) + 1]; }
+  /// One number for each part of the state.
+  struct State {
+    std::vector<simd::Line> x;
+    std::vector<simd::BodyLane> bodies;
+  };
+
+  /// How islands go on along their directions; the first one is of what belongs to none, and does
+  /// not move.
+  std::vector<simd::Way> ways_;
+  std::vector<double> energies_;  ///< by island, of the last sweep; 0 if there was none
+  std::vector<int> island_of_slot_;
+  /// Rows of an island do not take part in further sweeps than that.
+  struct End {
+    int sweeps, island;
+    friend auto operator<=>(const End&, const End&) = default;
+  };
+  std::vector<End> ends_;        ///< of the plan
+  std::vector<int> newest_end_;  ///< by island, while ends are looked for
+  int plan_number_ = -1;
+  bool known_ = false;  ///< last_ is a state of this frame
+  State last_, direction_;
+};
+
+}  // namespace cairn

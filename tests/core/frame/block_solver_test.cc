@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+// The block path as a whole: what it computes, that islands do not see each other, and that bad
+// input leaves no trace.
+#include "cycle/block_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "plan/plan.h"
+#include "tests/core/support/block_problems.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+using test::Coloured;
+using test::Scene;
+using test::Solution;
+
+/// The same sweeps in double precision, in the units of the caller, pair by pair of a Plan.
+class Oracle {
+ public:
+  Oracle(const Scene& scene, const Settings& settings, const std::vector<double>& start)
+      : scene_(scene), settings_(settings), x_(start) {
+    x_.resize(scene.rows.size());
+    for (const Body& body : scene.bodies) {
+      v_.push_back(body.velocity);
+      Push(body, body.impulse, body.angular_impulse, &v_.back());
+    }
+    for (size_t i = 0; i < x_.size(); ++i) {
+      x_[i] = Project(static_cast<int>(i), x_[i]);
+      Apply(scene.rows[i], x_[i]);
+    }
+    omega_ = settings.method == Method::kPsor ? settings.omega : 1;
+    test::MakePlan(scene, omega_, &plan_);
+  }
+
+  void Sweep(int number) {
+    for (int b = 0; b < static_cast<int>(plan_.blocks().size()); ++b) {
+      for (int lane = 0; lane < plan_.blocks()[b].lanes; ++lane) {
+        for (int row : plan_.rows_of(plan_.pair(b, lane))) {
+          if (number < scene_.rows[row].max_sweeps) Relax(row);
+        }
+      }
+    }
+  }
+  const std::vector<double>& x() const { return x_; }
+  const std::vector<Velocity>& v() const { return v_; }
+
+ private:
+  static void Push(const Body& body, const Vector3d& push, const Vector3d& turn, Velocity* v) {
+    v->linear += body.inv_mass * body.linear_factor.cwiseProduct(push);
+    v->angular += body.inv_inertia * turn;
+  }
+  void Apply(const Row& row, double x) {
+    for (const auto& [body, linear, angular] :
+         {std::tuple(row.body_a, row.linear_a, row.angular_a),
+          std::tuple(row.body_b, row.linear_b, row.angular_b)}) {
+      if (body != kWorld) Push(scene_.bodies[body], x * linear, x * angular, &v_[body]);
+    }
+  }
+  double Project(int index, double x) const {
+    const Row& row = scene_.rows[index];
+    double lo = row.lo, hi = row.hi;
+    if (row.parent != kNoRow) {
+      lo = std::max(lo, -row.friction * std::max(0.0, x_[row.parent]));
+      hi = std::min(hi, row.friction * std::max(0.0, x_[row.parent]));
+    }
+    return std::min(std::max(x, lo), hi);
+  }
+  void Relax(int index) {
+    const Row& row = scene_.rows[index];
+    double d = row.compliance, w = row.compliance * x_[index] - row.target;
+    for (const auto& [body, linear, angular] :
+         {std::tuple(row.body_a, row.linear_a, row.angular_a),
+          std::tuple(row.body_b, row.linear_b, row.angular_b)}) {
+      if (body == kWorld) continue;
+      const Body& b = scene_.bodies[body];
+      d += linear.dot(b.inv_mass * b.linear_factor.cwiseProduct(linear));
+      d += angular.dot(b.inv_inertia * angular);
+      w += linear.dot(v_[body].linear) + angular.dot(v_[body].angular);
+    }
+    const bool held = settings_.lifted_friction == LiftedFriction::kHold && row.parent != kNoRow &&
+                      x_[row.parent] <= 0;
+    if (held) return;
+    // what nothing can satisfy asks for nothing, and stays inside its bounds
+    const double step = d > 0 ? omega_ * row.relaxation * w / d : 0;
+    const double x = Project(index, x_[index] - step);
+    Apply(row, x - x_[index]);
+    x_[index] = x;
+  }
+
+  const Scene& scene_;
+  const Settings settings_;
+  double omega_ = 1;
+  Plan plan_;
+  std::vector<double> x_;
+  std::vector<Velocity> v_;
+};
+
+double Largest(const std::vector<double>& x) {
+  return test::Distance(x, std::vector<double>(x.size()));
+}
+
+/// Every relaxation rounds to 2^-24 of the largest number that it sees, and the sweeps after it
+/// pass that on without making it larger, as they contract. A body sees some 20 rows a sweep: 20
+/// sweeps are sqrt(400) such roundings where they are independent, and @p share leaves five times
+/// that.
+void ExpectLikeTheOracle(const Scene& scene, const Settings& settings,
+                         const std::vector<double>& start = {}, double share = 6e-6) {
+  Oracle oracle(scene, settings, start);
+  for (int sweep = 0; sweep < settings.max_sweeps; ++sweep) oracle.Sweep(sweep);
+  const Solution s = test::Solve(settings, scene, start);
+  ASSERT_TRUE(s.report.ok());
+  EXPECT_EQ(s.report.sweeps, settings.max_sweeps);
+  const double scale = std::max(1.0, Largest(oracle.x()));
+  EXPECT_LT(test::Distance(s.x, oracle.x()), share * scale);
+  EXPECT_LT(test::Distance(s.v, oracle.v()), share * scale);
+}
+
+/// Sweeps on blocks that never stop before they are told to, and do not choose among iterates.
+TEST(BlockSolver, SweepsAsTheOracleDoesInTheOrderOfThePlan) {
+  for (int sweeps : {1, 5, 20}) {
+    SCOPED_TRACE(sweeps);
+    ExpectLikeTheOracle(test::Tower(15), Coloured(sweeps));
+    ExpectLikeTheOracle(test::NormalsFirst(test::Wall(6, 5)), Coloured(sweeps));
+    ExpectLikeTheOracle(test::HangingChain(20, 10), Coloured(sweeps));
+    ExpectLikeTheOracle(test::Plate(100), Coloured(sweeps));
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      SCOPED_TRACE(seed);
+      ExpectLikeTheOracle(test::Heap({.bodies = 40, .contacts = 90, .pins = 10}, seed),
+                          Coloured(sweeps));
+    }
+  }
+}
+
+Scene EveryLaw(std::uint64_t seed) {
+  Scene scene = test::Heap({.bodies = 40, .contacts = 90, .pins = 10}, seed);
+  scene.bodies[2].linear_factor = {1, 0, 0.5};
+  scene.bodies[4] = Body{};
+  scene.bodies[5].inv_mass = 0;
+  return test::WithEveryLaw(scene, seed);
+}
+
+std::vector<double> RandomStart(const Scene& scene, std::uint64_t seed) {
+  test::Random random(seed);
+  std::vector<double> start(scene.rows.size());
+  for (double& x : start) x = random.Uniform(-0.3, 1);
+  return start;
+}
+
+TEST(BlockSolver, ObeysEveryLawOfARowAsTheOracleDoes) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = EveryLaw(seed);
+    for (const auto lifted : {LiftedFriction::kRelease, LiftedFriction::kHold}) {
+      Settings settings = Coloured(8);
+      settings.lifted_friction = lifted;
+      ExpectLikeTheOracle(scene, settings);
+      ExpectLikeTheOracle(scene, settings, RandomStart(scene, seed));
+    }
+    Settings settings = Coloured(8);
+    settings.method = Method::kPsor;
+    settings.omega = 1.2;
+    ExpectLikeTheOracle(scene, settings, RandomStart(scene, seed), 1e-5);
+  }
+}
+
+// Two bodies meet in 13 000 points: more rows than a lane can number the parents of.
+TEST(BlockSolver, SolvesAPairOfVeryManyRows) {
+  Scene scene;
+  scene.bodies.push_back(test::Box(1, {1, 1, 1}));
+  scene.bodies[0].impulse.z() = -test::kGravityStep;
+  scene.positions.emplace_back(0, 0, 0.5);
+  test::Random random(1);
+  for (int i = 0; i < 13000; ++i) {
+    const Vector3d point(random.Uniform(-0.5, 0.5), random.Uniform(-0.5, 0.5), 0);
+    test::AddContact(&scene, test::PointRow(scene, 0, kWorld, point, Vector3d::UnitZ()), point,
+                     0.5);
+  }
+  const Solution s = test::Solve(Coloured(3), scene);
+  ASSERT_TRUE(s.report.ok());
+  // all in one pair: the order of the problem, and 39 000 roundings
+  const Solution reference = test::Solve(test::PlainSweeps(3), scene);
+  EXPECT_LT(test::Distance(s.x, reference.x), 1e-4);
+  EXPECT_LT(test::Distance(s.v, reference.v), 1e-4);
+}
+
+/// A tower in which bodies change between two frames of one solver.
+void ExpectFollows(const std::function<void(std::vector<Body>*)>& change) {
+  Scene scene = test::Tower(4);
+  Solver steady(Coloured(8));
+  (void)test::Solve(&steady, scene);
+  change(&scene.bodies);
+  const Solution s = test::Solve(&steady, scene);
+  for (const Velocity& v : s.v) EXPECT_TRUE(v.linear.allFinite() && v.angular.allFinite());
+  Oracle oracle(scene, Coloured(8), {});
+  for (int sweep = 0; sweep < 8; ++sweep) oracle.Sweep(sweep);
+  EXPECT_LT(test::Distance(s.x, oracle.x()), 6e-6);
+  EXPECT_LT(test::Distance(s.v, oracle.v()), 6e-6);
+}
+
+TEST(BlockSolver, FollowsAMassThatChanges) {
+  ExpectFollows([](std::vector<Body>* bodies) { (*bodies)[1].inv_mass = 0.25; });
+  ExpectFollows([](std::vector<Body>* bodies) { (*bodies)[1].inv_mass = 0; });
+  ExpectFollows([](std::vector<Body>* bodies) { (*bodies)[1] = Body{}; });
+}
+
+// They still turn. The form that contacts are swept in divides by the sum of both inverse masses.
+TEST(BlockSolver, FollowsTwoBodiesThatLoseTheirMass) {
+  ExpectFollows([](std::vector<Body>* bodies) {
+    (*bodies)[1].inv_mass = 0;
+    (*bodies)[2].inv_mass = 0;
+  });
+}
+
+// The same form has one mass for all axes.
+TEST(BlockSolver, FollowsAnAxisThatIsLocked) {
+  ExpectFollows([](std::vector<Body>* bodies) { (*bodies)[1].linear_factor = {0, 1, 1}; });
+  ExpectFollows([](std::vector<Body>* bodies) { (*bodies)[1].linear_factor = {1, 1, 0.5}; });
+}
+
+/// Each part alone gives what it gives beside the others.
+void ExpectIslandsAlone(const std::vector<Scene>& parts, const Settings& settings) {
+  const Solution together = test::Solve(settings, test::Together(parts));
+  ASSERT_TRUE(together.report.ok());
+  size_t rows = 0, bodies = 0;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    SCOPED_TRACE("part " + std::to_string(i));
+    const Solution alone = test::Solve(settings, parts[i]);
+    const auto x = together.x.begin() + static_cast<std::ptrdiff_t>(rows);
+    const auto v = together.v.begin() + static_cast<std::ptrdiff_t>(bodies);
+    rows += parts[i].rows.size();
+    bodies += parts[i].bodies.size();
+    Solution part;
+    part.x.assign(x, x + static_cast<std::ptrdiff_t>(parts[i].rows.size()));
+    part.v.assign(v, v + static_cast<std::ptrdiff_t>(parts[i].bodies.size()));
+    EXPECT_TRUE(test::SameBits(alone, part));
+  }
+}
+
+std::vector<Scene> Islands() {
+  std::vector<Scene> parts = {
+      test::Tower(2),  test::HangingChain(8, 5), test::Wall(3, 4),         test::Wall(12, 13),
+      test::Tower(12), test::HangingChain(3, 1), test::HangingChain(2, 50)};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    parts.push_back(test::Heap({.bodies = 9, .contacts = 20, .pins = 3}, seed));
+  }
+  return parts;
+}
+
+TEST(Islands, SolvedTogetherHaveTheBitsOfEachAlone) {
+  ExpectIslandsAlone(Islands(), Coloured(30));
+  ExpectIslandsAlone(Islands(), test::ColouredSteps(30));
+}
+
+// Towers of different heights are done at different times; lanes that they share go on.
+TEST(Islands, ThatHaveConvergedDoNotChangeWhileOthersGoOn) {
+  for (Settings settings : {Coloured(300), test::ColouredSteps(100)}) {
+    settings.tolerance = 1e-3;
+    ExpectIslandsAlone(Islands(), settings);
+    const Solution s = test::Solve(settings, test::Together(Islands()));
+    std::vector<int> sweeps;
+    for (const IslandReport& island : s.report.islands) sweeps.push_back(island.sweeps);
+    std::sort(sweeps.begin(), sweeps.end());
+    EXPECT_LT(sweeps.front(), sweeps.back());
+    EXPECT_EQ(s.report.islands[0].stop, StopReason::kConverged);
+  }
+}
+
+/// A hub under more boxes than there are colours, of two shapes that come in a given order, so that
+/// the order of pairs without a colour matters.
+Scene Hub(int boxes, int first_points) {
+  Scene scene;
+  scene.bodies.push_back(test::Box(50, {20, 20, 1}));
+  scene.positions.emplace_back(0, 0, 0.5);
+  test::Random random(4);
+  for (int i = 1; i <= boxes; ++i) {
+    scene.bodies.push_back(test::Box(1, {1, 1, 1}));
+    scene.bodies.back().impulse.z() = -random.Uniform(0.1, 0.3);
+    const Vector3d at(random.Uniform(-9, 9), random.Uniform(-9, 9), 1.5);
+    scene.positions.push_back(at);
+    const int points = i % 2 == 1 ? first_points : 3 - first_points;
+    for (int k = 0; k < points; ++k) {
+      const Vector3d point = at + Vector3d(0.3 * k, 0.2, -0.5);
+      test::AddContact(&scene, test::PointRow(scene, i, 0, point, Vector3d::UnitZ()), point, 0.5);
+    }
+  }
+  return scene;
+}
+
+// Shapes are numbered as they come, and pairs without a colour are sorted by them.
+TEST(Islands, WithPairsBeyondAllColoursHaveTheBitsOfEachAloneToo) {
+  ExpectIslandsAlone({Hub(60, 1), Hub(60, 2)}, Coloured(10));
+}
+
+/// Two hubs and boxes on either, in no order: pairs without a colour fill each other's lanes.
+Scene TwinHubs(std::uint64_t seed) {
+  test::Random random(seed);
+  Scene scene;
+  for (int hub = 0; hub < 2; ++hub) scene.bodies.push_back(test::PointMass(20));
+  for (int i = 0; i < 90; ++i) {
+    scene.bodies.push_back(test::PointMass(1, {0, 0, -random.Uniform(0.1, 0.3)}));
+    scene.rows.push_back(test::PushRow(2 + i, random.Index(2), random.Direction()));
+  }
+  for (int i = 0; i < 30; ++i) {
+    scene.rows.push_back(test::PushRow(2 + random.Index(90), random.Index(2), random.Direction()));
+  }
+  return scene;
+}
+
+TEST(Islands, WithTwoCrowdedBodiesHaveTheBitsOfEachAloneToo) {
+  std::vector<Scene> parts;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) parts.push_back(TwinHubs(seed));
+  ExpectIslandsAlone(parts, Coloured(10));
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The same bits for any number of threads, wherever they come from, on every instruction set, with
+// every compiler.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "tests/core/support/block_problems.h"
+
+namespace cairn {
+namespace {
+
+using test::Coloured;
+using test::Scene;
+using test::Solution;
+
+constexpr int kFrames = 20;
+/// Problems of fewer rows stay on one thread (kParallelRows, block_solver.cc).
+constexpr size_t kParallelRows = 4096;
+
+/// A job system that starts a thread for each task.
+class OwnThreads final : public Executor {
+ public:
+  ~OwnThreads() override {
+    for (std::thread& thread : threads_) thread.join();
+  }
+  void Submit(void (*work)(void*), void* what) override {
+    threads_.emplace_back(work, what);
+    ++tasks;
+  }
+  int tasks = 0;
+
+ private:
+  std::vector<std::thread> threads_;
+};
+
+Scene SmallHeap() {
+  return test::WithEveryLaw(test::Heap({.bodies = 60, .contacts = 150, .pins = 20}, 1), 1);
+}
+
+Scene LargeHeap() {
+  const test::PileOptions options{.bodies = 800, .contacts = 1900, .pins = 150, .world_share = 0.3};
+  return test::WithEveryLaw(test::Heap(options, 2), 2);
+}
+
+Scene LargeWall() { return test::NormalsFirst(test::Wall(18, 17)); }
+
+Scene ManyIslands() {
+  std::vector<Scene> parts(40, test::HangingChain(8, 3));
+  for (int i = 0; i < 12; ++i) parts.push_back(test::Wall(3 + i % 3, 5));
+  parts.push_back(test::Plate(50));
+  return test::Together(parts);
+}
+
+size_t FewestRows(const std::vector<Solution>& solutions) {
+  size_t rows = solutions[0].x.size();
+  for (const Solution& solution : solutions) rows = std::min(rows, solution.x.size());
+  return rows;
+}
+
+void ExpectSameBitsEverywhere(const Scene& scene, Settings settings, int frames) {
+  settings.threads = 1;
+  const std::vector<Solution> expected = test::Play(settings, scene, frames);
+  for (const int threads : {2, 3, 8}) {
+    settings.threads = threads;
+    EXPECT_TRUE(test::SameBits(test::Play(settings, scene, frames), expected)) << threads;
+    OwnThreads executor;
+    settings.executor = &executor;
+    EXPECT_TRUE(test::SameBits(test::Play(settings, scene, frames), expected)) << threads;
+    EXPECT_EQ(executor.tasks > 0, FewestRows(expected) >= kParallelRows);
+    settings.executor = nullptr;
+  }
+  for (const simd::Target target : simd::SupportedTargets()) {
+    const test::AskFor asked(target);
+    for (const int threads : {1, 2}) {
+      settings.threads = threads;
+      EXPECT_TRUE(test::SameBits(test::Play(settings, scene, frames), expected))
+          << simd::TargetName(target);
+    }
+  }
+}
+
+TEST(Determinism, OfSweepsHoldsForSmallProblems) {
+  ExpectSameBitsEverywhere(SmallHeap(), Coloured(8), kFrames);
+  ExpectSameBitsEverywhere(test::Wall(6, 6), Coloured(8), kFrames);
+}
+
+TEST(Determinism, OfSweepsHoldsForProblemsThatThreadsShare) {
+  for (const Scene& scene : {LargeHeap(), LargeWall()}) {
+    EXPECT_GE(FewestRows(test::Play(Coloured(1), scene, kFrames)), kParallelRows);
+    ExpectSameBitsEverywhere(scene, Coloured(8), kFrames);
+  }
+}
+
+TEST(Determinism, OfSweepsThatEndIslandByIslandHolds) {
+  Settings settings = Coloured(40);
+  settings.tolerance = 1e-3;
+  ExpectSameBitsEverywhere(ManyIslands(), settings, kFrames);
+}
+
+TEST(Determinism, OfStepsHolds) {
+  ExpectSameBitsEverywhere(SmallHeap(), test::ColouredSteps(15), kFrames);
+  Settings settings = test::ColouredSteps(15);
+  settings.step_policy = StepPolicy::kMeasured;
+  settings.tolerance = 1e-3;
+  ExpectSameBitsEverywhere(ManyIslands(), settings, kFrames);
+  ExpectSameBitsEverywhere(LargeWall(), settings, 6);
+}
+
+// What a budget of work leaves is a function of the problem, too.
+TEST(Determinism, OfWorkBudgetsHolds) {
+  Settings settings = Coloured(1000);
+  for (const int work : {9000, 30000}) {
+    settings.budget = Budget::Work(work);
+    ExpectSameBitsEverywhere(LargeWall(), settings, 5);
+  }
+}
+
+/// A scene and what 20 frames of it hash to. Not a truth: a way for machines and compilers to say
+/// whether they agree.
+struct Golden {
+  std::string what;
+  Scene scene;
+  Settings settings;
+  std::uint64_t hash;
+};
+
+TEST(Determinism, HoldsFromMachineToMachine) {
+  Settings held = Coloured(8), relaxed = Coloured(8), converged = Coloured(60);
+  held.lifted_friction = LiftedFriction::kHold;
+  relaxed.method = Method::kPsor;
+  relaxed.omega = 1.2;
+  converged.tolerance = 1e-3;
+  Settings as_it_comes, work = test::ColouredSteps(1000);
+  as_it_comes.max_sweeps = 10;
+  work.step_policy = StepPolicy::kMeasured;
+  work.budget = Budget::Work(40000);
+  const std::vector<Golden> goldens = {
+      {"tower", test::Tower(12), Coloured(8), 0xde01a482d26df530u},
+      {"small heap", SmallHeap(), Coloured(8), 0x7b7f7965b0f89c43u},
+      {"small heap, held", SmallHeap(), held, 0x8274d6c87a6ede35u},
+      {"small heap, relaxed", SmallHeap(), relaxed, 0x21ad1f5d202dd7f5u},
+      {"large heap", LargeHeap(), Coloured(8), 0xe25e379a15dafe2cu},
+      {"large wall", LargeWall(), Coloured(8), 0xb060d56b7892b8dau},
+      {"plate", test::Plate(60), Coloured(8), 0xcc53bf5fdcd7d745u},
+      {"islands", ManyIslands(), converged, 0xd54544795bb8b00du},
+      {"tower, as it comes", test::Tower(12), as_it_comes, 0xae3b08c2cbd8b6adu},
+      {"chain, as it comes", test::HangingChain(20, 50), as_it_comes, 0xf733551ad8bf93eu},
+      {"small heap, as it comes", SmallHeap(), as_it_comes, 0xd9537036781030c2u},
+      {"islands, as they come", ManyIslands(), as_it_comes, 0x14a851742f56b9aau},
+      {"large wall, steps", LargeWall(), test::ColouredSteps(15), 0x4d4d8b903f25f842u},
+      {"islands, work", ManyIslands(), work, 0x79f5bbbb5359b6ccu},
+  };
+  for (const Golden& golden : goldens) {
+    const std::uint64_t hash = test::HashOf(test::Play(golden.settings, golden.scene, kFrames));
+    EXPECT_EQ(hash, golden.hash) << golden.what << std::hex << ": 0x" << hash << "u";
+  }
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+// The order of work: every row once, and nobody in the way of anybody.
+#include "plan/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include "tests/core/support/block_problems.h"
+
+namespace cairn {
+namespace {
+
+using simd::kLanes;
+using simd::PairBlock;
+using test::Scene;
+
+/// Rows of a stage at most, but for the rest of a unit, and of that for the rest of a block.
+constexpr int kStageRows = 8192;
+
+struct Planned {
+  Scene scene;
+  Plan plan;
+
+  explicit Planned(const Scene& of) : scene(of) { Make(); }
+  void Make() { test::MakePlan(scene, 1, &plan); }
+};
+
+int KindOf(const Pair& pair) { return (pair.contact ? 2 : 0) + (pair.b == kWorld ? 1 : 0); }
+
+void ExpectEveryRowInOneLane(const Planned& p) {
+  std::vector<int> lanes(p.scene.rows.size());
+  for (int b = 0; b < static_cast<int>(p.plan.blocks().size()); ++b) {
+    const PairBlock& block = p.plan.blocks()[b];
+    ASSERT_TRUE(block.lanes >= 1 && block.lanes <= kLanes);
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      const auto rows = p.plan.rows_of(p.plan.pair(b, lane));
+      EXPECT_EQ(static_cast<int>(rows.size()), block.row_count);
+      for (int row : rows) ++lanes[row];
+    }
+  }
+  for (int count : lanes) ASSERT_EQ(count, 1);
+}
+
+/// Slots of a block, world excluded: those of its bodies, each once.
+void ExpectLanesApart(const Planned& p) {
+  for (int b = 0; b < static_cast<int>(p.plan.blocks().size()); ++b) {
+    const PairBlock& block = p.plan.blocks()[b];
+    std::set<int> slots;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (lane >= block.lanes) {
+        EXPECT_EQ(block.a[lane], 0);
+        EXPECT_EQ(block.b[lane], 0);
+        continue;
+      }
+      const Pair& pair = p.plan.pair(b, lane);
+      EXPECT_TRUE(slots.insert(block.a[lane]).second);
+      if (block.b[lane] != 0) {
+        EXPECT_TRUE(slots.insert(block.b[lane]).second);
+      }
+      EXPECT_NE(block.a[lane], 0) << "the first slot is read by all and written by none";
+      EXPECT_EQ(p.plan.body_of_slot()[block.a[lane]], pair.a);
+      EXPECT_EQ(p.plan.body_of_slot()[block.b[lane]], pair.b);
+      if (pair.a != kWorld) {
+        EXPECT_EQ(p.plan.slot_of_body()[pair.a], block.a[lane]);
+      }
+      if (pair.b != kWorld) {
+        EXPECT_EQ(p.plan.slot_of_body()[pair.b], block.b[lane]);
+      }
+    }
+  }
+}
+
+void ExpectGroupsApart(const Planned& p) {
+  int block = 0, x = 0, island = 0;
+  std::set<int> slots;
+  for (int g = 0; g < static_cast<int>(p.plan.groups().size()); ++g) {
+    const Group& group = p.plan.groups()[g];
+    EXPECT_EQ(group.first_block, block);
+    EXPECT_EQ(group.first_x, x);
+    EXPECT_EQ(group.first_island, island);
+    block += group.blocks;
+    x += group.x_lines;
+    island += group.islands;
+    for (int i = group.first_island; i < island; ++i) {
+      EXPECT_EQ(p.plan.islands()[p.plan.islands_of_groups()[i]].group, g);
+    }
+    for (int s = 0; s < group.slots; ++s) EXPECT_TRUE(slots.insert(group.first_slot + s).second);
+    for (int b = group.first_block; b < block; ++b) {
+      const PairBlock& of = p.plan.blocks()[b];
+      const int begin = static_cast<int>(of.x);
+      EXPECT_TRUE(begin >= group.first_x && begin + of.row_count <= x);
+      for (int lane = 0; lane < of.lanes; ++lane) {
+        EXPECT_EQ(p.plan.islands()[p.plan.island_of(b, lane)].group, g);
+        for (int slot : {of.a[lane], of.b[lane]}) {
+          const bool inside = slot >= group.first_slot && slot < group.first_slot + group.slots;
+          EXPECT_TRUE(slot == 0 || inside);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(block, static_cast<int>(p.plan.blocks().size()));
+  EXPECT_EQ(x, p.plan.x_lines());
+  EXPECT_EQ(island, static_cast<int>(p.plan.islands().size()));
+  EXPECT_EQ(slots.size() + 1, p.plan.body_of_slot().size());
+}
+
+/// Bodies that can move of all lanes of a unit.
+std::set<int> BodiesOf(const Planned& p, const Unit& unit) {
+  std::set<int> bodies;
+  for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
+    for (int lane = 0; lane < p.plan.blocks()[b].lanes; ++lane) {
+      const Pair& pair = p.plan.pair(b, lane);
+      for (int body : {pair.a, pair.b}) {
+        if (body != kWorld) bodies.insert(body);
+      }
+    }
+  }
+  return bodies;
+}
+
+void ExpectUnitsOfAStageApart(const Planned& p) {
+  int unit = 0;
+  std::vector<int> done(p.plan.blocks().size());
+  for (const Stage& stage : p.plan.stages()) {
+    EXPECT_EQ(stage.first_unit, unit);
+    std::set<int> bodies;
+    for (; unit < stage.first_unit + stage.units; ++unit) {
+      const Unit& of = p.plan.units()[unit];
+      int rows = 0;
+      for (int b = of.first_block; b < of.first_block + of.blocks; ++b) {
+        rows += p.plan.blocks()[b].lanes * p.plan.blocks()[b].row_count;
+        ++done[b];
+      }
+      EXPECT_EQ(of.rows, rows);
+      for (int body : BodiesOf(p, of)) EXPECT_TRUE(bodies.insert(body).second);
+    }
+  }
+  EXPECT_EQ(unit, static_cast<int>(p.plan.units().size()));
+  for (int count : done) EXPECT_EQ(count, 1);
+}
+
+/// Blocks of a group in stages keep their order, so that one thread and many do the same.
+void ExpectBlocksOfAGroupInOrder(const Planned& p) {
+  std::vector<int> last(p.plan.groups().size(), -1);
+  for (const Unit& unit : p.plan.units()) {
+    EXPECT_GT(unit.first_block, last[unit.group]);
+    last[unit.group] = unit.first_block;
+  }
+}
+
+/// Those that may be swept at once have the same rows and share no body.
+void ExpectBlocksThatAreAlikeApart(const Planned& p) {
+  for (const Group& group : p.plan.groups()) {
+    for (int b = group.first_block; b + 1 < group.first_block + group.blocks; ++b) {
+      const PairBlock &block = p.plan.blocks()[b], &next = p.plan.blocks()[b + 1];
+      if (!block.like_next) continue;
+      EXPECT_EQ(block.form, next.form);
+      EXPECT_EQ(block.row_count, next.row_count);
+      EXPECT_EQ(block.rows, next.rows);
+      std::set<int> slots{0};
+      for (const PairBlock* of : {&block, &next}) {
+        for (int lane = 0; lane < of->lanes; ++lane) {
+          EXPECT_TRUE(slots.insert(of->a[lane]).second);
+          EXPECT_TRUE(of->b[lane] == 0 || slots.insert(of->b[lane]).second);
+        }
+      }
+    }
+  }
+}
+
+void ExpectSound(const Planned& p) {
+  ExpectBlocksThatAreAlikeApart(p);
+  ExpectEveryRowInOneLane(p);
+  ExpectLanesApart(p);
+  ExpectGroupsApart(p);
+  ExpectUnitsOfAStageApart(p);
+  ExpectBlocksOfAGroupInOrder(p);
+}
+
+TEST(Plan, IsSoundForScenesOfAllKinds) {
+  for (const Scene& scene :
+       {test::Tower(1), test::Tower(30), test::Wall(8, 8), test::Wall(20, 15), test::Plate(10),
+        test::Plate(100), test::HangingChain(50, 1), test::NormalsFirst(test::Wall(6, 6))}) {
+    ExpectSound(Planned(scene));
+  }
+}
+
+TEST(Plan, FindsBlocksThatAreAlike) {
+  const Planned wall(test::Wall(20, 15)), tower(test::Tower(30));
+  const auto alike = [](const Planned& p) {
+    return std::ranges::count_if(p.plan.blocks(), &PairBlock::like_next);
+  };
+  EXPECT_GT(alike(wall), 0);
+  EXPECT_EQ(alike(tower), 0);  // of each kind and colour it has one block at the most
+}
+
+TEST(Plan, IsSoundForRandomScenesThatChange) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Scene whole = test::WithEveryLaw(
+        test::Heap({.bodies = 200, .contacts = 700, .pins = 60, .world_share = 0.3}, seed), seed);
+    whole.bodies[5] = whole.bodies[50] = Body{};
+    whole.rows.push_back(test::PushRow(5, 50, {1, 0, 0}));
+    test::Game game(whole);
+    Planned planned(game.Next().scene);
+    for (int frame = 0; frame < 10; ++frame) {
+      ExpectSound(planned);
+      planned.scene = game.Next().scene;
+      planned.Make();
+    }
+  }
+}
+
+TEST(Plan, OfNothingIsEmpty) {
+  Scene scene;
+  scene.bodies.assign(3, test::PointMass(1));
+  const Planned p(scene);
+  ExpectSound(p);
+  EXPECT_EQ(p.plan.blocks().size(), 0u);
+  EXPECT_EQ(p.plan.stages().size(), 0u);
+  EXPECT_EQ(p.plan.islands().size(), 0u);
+}
+
+TEST(Plan, OfOneRowIsOneLane) {
+  Scene scene;
+  scene.bodies.assign(3, test::PointMass(1));
+  scene.rows.push_back(test::PushRow(2, 1, {0, 0, 1}));
+  const Planned p(scene);
+  ExpectSound(p);
+  ASSERT_EQ(p.plan.blocks().size(), 1u);
+  EXPECT_EQ(p.plan.blocks()[0].lanes, 1);
+  EXPECT_EQ(p.plan.islands()[0].first_body, 1);
+  EXPECT_EQ(p.plan.islands()[0].bodies, 2);
+  EXPECT_EQ(p.plan.islands()[0].rows, 1);
+  EXPECT_EQ(p.plan.slot_of_body()[0], 0);
+}
+
+TEST(Plan, OfAHundredThousandRowsIsSound) {
+  const Planned p(test::Wall(100, 43));
+  EXPECT_GT(p.scene.rows.size(), 100000u);
+  ExpectSound(p);
+  for (const Stage& stage : p.plan.stages()) {
+    int rows = 0;
+    for (int u = 0; u < stage.units; ++u) rows += p.plan.units()[stage.first_unit + u].rows;
+    EXPECT_LT(rows, kStageRows + 1024 + kLanes * 12);
+  }
+}
+
+// Two colours of joints and one of anchors: 64 chains of one anchor and five joints fill lanes.
+TEST(Plan, FillsTheLanesOfBlocksWithSmallIslands) {
+  const Planned p(test::Together(std::vector<Scene>(64, test::HangingChain(6, 1))));
+  ExpectSound(p);
+  EXPECT_EQ(p.plan.groups().size(), 1u);
+  EXPECT_EQ(p.plan.islands().size(), 64u);
+  EXPECT_EQ(p.plan.blocks().size(), 24u);
+  for (const PairBlock& block : p.plan.blocks()) EXPECT_EQ(block.lanes, kLanes);
+}
+
+// A chain of n has 3 n rows, and a group 2,048 at most: a group of a few rows would fill no lanes.
+TEST(Plan, SharesSmallIslandsOutEvenly) {
+  struct Case {
+    int chains, length;
+    size_t groups;
+  };
+  for (const Case& of : {Case{113, 6, 1}, Case{120, 6, 2}, Case{300, 6, 3}, Case{900, 6, 8},
+                         Case{13, 100, 3}, Case{7, 300, 4}}) {
+    const Planned p(
+        test::Together(std::vector<Scene>(of.chains, test::HangingChain(of.length, 1))));
+    ExpectSound(p);
+    ASSERT_EQ(p.plan.groups().size(), of.groups) << of.chains;
+    for (const Group& group : p.plan.groups()) {
+      EXPECT_LE(group.rows, 2048);
+      EXPECT_NEAR(group.islands, of.chains / static_cast<double>(of.groups), 1) << of.chains;
+    }
+  }
+}
+
+// Walls of 1,300 rows or so: two fit no group.
+TEST(Plan, KeepsGroupsWithinALimitWhateverIslandsThereAre) {
+  const Planned p(test::Together({test::Tower(3), test::Wall(8, 8), test::Tower(3),
+                                  test::Wall(8, 8), test::Tower(3), test::Wall(8, 8)}));
+  ExpectSound(p);
+  for (const Group& group : p.plan.groups()) EXPECT_LE(group.rows, 2048);
+  EXPECT_EQ(p.plan.groups().size(), 3u);
+}
+
+TEST(Plan, GivesALargeIslandAGroupOfItsOwn) {
+  const Scene small = test::Tower(3), large = test::Wall(12, 12);
+  const Planned p(test::Together({small, large, small}));
+  ExpectSound(p);
+  EXPECT_EQ(p.plan.groups().size(), 2u);
+  EXPECT_EQ(p.plan.islands()[0].group, p.plan.islands()[2].group);
+  EXPECT_NE(p.plan.islands()[0].group, p.plan.islands()[1].group);
+}
+
+TEST(Plan, SweepsJointsBeforeContactsAndTheWorldLast) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const Planned p(
+        test::Heap({.bodies = 100, .contacts = 250, .pins = 80, .world_share = 0.3}, seed));
+    for (const Group& group : p.plan.groups()) {
+      int kind = 0;
+      for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+        for (int lane = 0; lane < p.plan.blocks()[b].lanes; ++lane) {
+          EXPECT_GE(KindOf(p.plan.pair(b, lane)), kind);
+          kind = KindOf(p.plan.pair(b, lane));
+        }
+      }
+    }
+  }
+}
+
+TEST(Plan, NumbersSlotsByTheirFirstUse) {
+  const Planned p(test::Wall(15, 10));
+  int newest = 0;
+  for (const PairBlock& block : p.plan.blocks()) {
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      for (int slot : {block.a[lane], block.b[lane]}) {
+        EXPECT_LE(slot, newest + 1);
+        newest = std::max(newest, slot);
+      }
+    }
+  }
+  EXPECT_EQ(newest, 150);
+}
+
+// The budget is looked at between stages: no stage may be much longer than all others, whatever the
+// scene. A plate under many boxes has one pair in a block beyond its first 32.
+TEST(Plan, HasNoLongerStagesWhereThereAreNoColoursLeft) {
+  const Planned p(test::Plate(1500));
+  for (const Stage& stage : p.plan.stages()) {
+    int rows = 0;
+    for (int u = 0; u < stage.units; ++u) rows += p.plan.units()[stage.first_unit + u].rows;
+    EXPECT_LT(rows, kStageRows + 1024 + kLanes * 12);
+  }
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/core/support/recording_problems.h"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A folder that is empty at first.
+std::string FreshFolder(const std::string& name) {
+  const std::string folder = testing::TempDir() + "/" + name;
+  fs::remove_all(folder);
+  return folder;
+}
+
+std::vector<std::string> FilesIn(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files.push_back(fs::relative(entry.path(), folder).string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void Play(Recorder* recorder, int frames) {
+  for (int i = 0; i < frames; ++i) {
+    Recording frame = test::RandomRecording(i);
+    if (recorder->Begin(frame.problem(), frame.impulses())) recorder->End(frame.settings, Report{});
+    recorder->NextFrame();
+  }
+}
+
+FrameChoice Frames(const char* text) {
+  FrameChoice frames;
+  EXPECT_TRUE(frames.Parse(text));
+  return frames;
+}
+
+TEST(FrameChoice, TakesNumbersAndRanges) {
+  EXPECT_TRUE(FrameChoice().Contains(7));
+  const FrameChoice frames = Frames("3,10-12,40");
+  EXPECT_EQ(frames.last(), 40);
+  for (const int frame : {3, 10, 11, 12, 40}) EXPECT_TRUE(frames.Contains(frame));
+  for (const int frame : {0, 2, 4, 9, 13, 39, 41}) EXPECT_FALSE(frames.Contains(frame));
+  for (const char* bad :
+       {"", "a", "3,", ",3", "3-", "5-4", "-1", "3;4", "3 4", "99999999999999999999"}) {
+    FrameChoice none;
+    EXPECT_FALSE(none.Parse(bad)) << bad;
+    EXPECT_FALSE(none.Contains(3));
+  }
+}
+
+TEST(Recorder, WritesTheFramesThatAreWantedAndNothingElse) {
+  const std::string folder = FreshFolder("recorder_frames");
+  Recorder recorder("test");
+  recorder.RecordTo(folder, Frames("1,3-4"));
+  Play(&recorder, 6);
+  EXPECT_THAT(FilesIn(folder),
+              ElementsAre("world-1/frame-000001.cairn", "world-1/frame-000003.cairn",
+                          "world-1/frame-000004.cairn"));
+  EXPECT_EQ(recorder.files().written, 3);
+  EXPECT_EQ(recorder.files().failed, 0);
+  Recording read;
+  ASSERT_TRUE(Load(recorder.files().last_file, &read).ok());
+  EXPECT_EQ(read.frame, 4);
+  EXPECT_EQ(read.source, "test");
+  EXPECT_EQ(read.row_impulses, test::RandomRecording(4).row_impulses);
+}
+
+TEST(Recorder, OfAnotherWorldOverwritesNothing) {
+  const std::string folder = FreshFolder("recorder_worlds");
+  for (int i = 0; i < 2; ++i) {
+    Recorder recorder("test");
+    recorder.RecordTo(folder, {});
+    Play(&recorder, 1);
+  }
+  EXPECT_THAT(FilesIn(folder),
+              ElementsAre("world-1/frame-000000.cairn", "world-2/frame-000000.cairn"));
+}
+
+TEST(Recorder, IsAskedByTheEnvironment) {
+  const std::string folder = FreshFolder("recorder_environment");
+  unsetenv("CAIRN_RECORD");
+  EXPECT_EQ(Recorder::FromEnvironment("test"), nullptr);
+  setenv("CAIRN_RECORD", folder.c_str(), 1);
+  setenv("CAIRN_RECORD_FRAMES", "2", 1);
+  Play(Recorder::FromEnvironment("test").get(), 4);
+  EXPECT_THAT(FilesIn(folder), ElementsAre("world-1/frame-000002.cairn"));
+  setenv("CAIRN_RECORD_FRAMES", "two", 1);
+  const auto recorder = Recorder::FromEnvironment("test");
+  Play(recorder.get(), 4);
+  EXPECT_EQ(recorder->files().written, 0);
+  EXPECT_THAT(recorder->files().last_failure, HasSubstr("CAIRN_RECORD_FRAMES='two'"));
+  unsetenv("CAIRN_RECORD");
+  unsetenv("CAIRN_RECORD_FRAMES");
+}
+
+TEST(Recorder, CountsWhatCannotBeWritten) {
+  const std::string folder = FreshFolder("recorder_failure");
+  std::ofstream(folder) << "a file where a folder is to be";
+  Recorder recorder("test");
+  recorder.RecordTo(folder, {});
+  Play(&recorder, 3);
+  EXPECT_EQ(recorder.files().written, 0);
+  EXPECT_EQ(recorder.files().failed, 1);  // it does not ask again
+  EXPECT_THAT(recorder.files().last_failure, HasSubstr(folder));
+
+  Recorder other("test");
+  other.RecordNext(folder + "/none/a.cairn");
+  Play(&other, 2);
+  EXPECT_EQ(other.files().failed, 1);
+}
+
+}  // namespace
+}  // namespace cairn

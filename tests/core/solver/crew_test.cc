@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Threads that claim units of stages: every unit once, no stage before the last, whoever comes.
+#include "runtime/crew.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <numeric>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace cairn {
+namespace {
+
+/// Counts what is done, and whether anything is done too early.
+class Counted final : public StagedWork {
+ public:
+  explicit Counted(std::vector<int> units)
+      : units_(std::move(units)),
+        runs_(std::accumulate(units_.begin(), units_.end(), 0)),
+        done_(units_.size()) {}
+
+  int stages() const override { return static_cast<int>(units_.size()); }
+  int units(int stage) const override { return units_[stage]; }
+  void Do(int stage, int unit) override {
+    for (int before = 0; before < stage; ++before) {
+      if (done_[before] != units_[before]) early_ = true;
+    }
+    ++runs_[std::accumulate(units_.begin(), units_.begin() + stage, unit)];
+    ++done_[stage];
+  }
+  bool GoOn(int stage) override { return stage < end_; }
+
+  void ExpectDoneOnce(int stages) const {
+    EXPECT_FALSE(early_);
+    const int end = std::accumulate(units_.begin(), units_.begin() + stages, 0);
+    for (int i = 0; i < static_cast<int>(runs_.size()); ++i) EXPECT_EQ(runs_[i], i < end ? 1 : 0);
+  }
+  void EndBefore(int stage) { end_ = stage; }
+
+ private:
+  std::vector<int> units_;
+  std::vector<std::atomic<int>> runs_, done_;
+  std::atomic<bool> early_ = false;
+  int end_ = 1 << 30;
+};
+
+const std::vector<int> kStages = {7, 0, 1, 40, 3, 700};
+
+TEST(Crew, DoesEveryUnitOnceAndNoStageBeforeTheLast) {
+  for (const int threads : {1, 2, 3, 5, 8}) {
+    Crew crew(threads);
+    for (int repetition = 0; repetition < 200; ++repetition) {
+      Counted work(kStages);
+      crew.Run(&work);
+      work.ExpectDoneOnce(6);
+    }
+  }
+}
+
+TEST(Crew, DoesManyWorksOfOneShift) {
+  Crew crew(3);
+  for (int shift = 0; shift < 50; ++shift) {
+    crew.Call();
+    for (int repetition = 0; repetition < 20; ++repetition) {
+      Counted work(kStages);
+      crew.Run(&work);
+      work.ExpectDoneOnce(6);
+    }
+    crew.Dismiss();
+  }
+}
+
+TEST(Crew, EndsBetweenStagesWhereItIsToldTo) {
+  for (const int threads : {1, 4}) {
+    Crew crew(threads);
+    Counted work(kStages);
+    work.EndBefore(4);
+    crew.Run(&work);
+    work.ExpectDoneOnce(4);
+  }
+}
+
+TEST(Crew, DoesNothingWhereThereIsNothing) {
+  Crew crew(3);
+  Counted work({});
+  crew.Run(&work);
+  work.ExpectDoneOnce(0);
+}
+
+/// A job system that never has time, and one that starts a thread for each task.
+class NoThreads final : public Executor {
+ public:
+  void Submit(void (*work)(void*), void* what) override { tasks.emplace_back(work, what); }
+  std::vector<std::pair<void (*)(void*), void*>> tasks;
+};
+class OwnThreads final : public Executor {
+ public:
+  ~OwnThreads() override {
+    for (std::thread& thread : threads) thread.join();
+  }
+  void Submit(void (*work)(void*), void* what) override { threads.emplace_back(work, what); }
+  std::vector<std::thread> threads;
+};
+
+TEST(Crew, FinishesAloneWhereNobodyComes) {
+  NoThreads executor;
+  {
+    Crew crew(4, &executor);
+    for (int repetition = 0; repetition < 3; ++repetition) {
+      Counted work(kStages);
+      crew.Run(&work);
+      work.ExpectDoneOnce(6);
+    }
+  }
+  // asked once, not once a run, and those that come when all is over find nothing to do
+  EXPECT_EQ(executor.tasks.size(), 3u);
+  for (const auto& [work, what] : executor.tasks) work(what);
+}
+
+TEST(Crew, WorksWithThreadsOfTheHost) {
+  OwnThreads executor;
+  Crew crew(3, &executor);
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    Counted work(kStages);
+    crew.Run(&work);
+    work.ExpectDoneOnce(6);
+  }
+  EXPECT_GE(executor.threads.size(), 2u);
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// What impulses are worth, the bound of energy that follows from it, and the guards on it.
+#include "step/merit.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "cairn/solver.h"
+#include "tests/core/support/problems.h"
+
+namespace cairn {
+namespace {
+
+using test::Scene;
+using test::Solution;
+
+/// Contacts, pins and motors between moving bodies, with targets on some rows.
+Scene MovingPile(std::uint64_t seed) {
+  Scene scene = test::RandomPile({.bodies = 12, .contacts = 25, .pins = 4}, seed);
+  test::Random random(seed);
+  for (Row& row : scene.rows) {
+    if (row.parent == kNoRow) row.target = random.Uniform(-20, 20);
+  }
+  return scene;
+}
+
+double KineticEnergy(const Scene& scene, const std::vector<Velocity>& v) {
+  double energy = 0;
+  for (size_t i = 0; i < v.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const Eigen::Vector3d momentum = v[i].linear / body.inv_mass;
+    energy += momentum.dot(v[i].linear) / 2;
+    energy += v[i].angular.dot(body.inv_inertia.inverse() * v[i].angular) / 2;
+  }
+  return energy;
+}
+
+Settings Path(SweepOrder order, int sweeps) {
+  Settings settings = test::PlainSweeps(sweeps);
+  settings.method = Method::kPgsSm;
+  settings.k_sm = 0;
+  settings.order = order;
+  return settings;
+}
+
+constexpr SweepOrder kPaths[] = {SweepOrder::kForward, SweepOrder::kColoured};
+
+TEST(Merit, IsTheEnergyAfterTheStepLessWhatTargetsPutIn) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene scene = MovingPile(seed);
+    const Solution none = test::Solve(test::PlainSweeps(0), scene);
+    const Solution s = test::Solve(test::PlainSweeps(7), scene);
+    double targets = 0;
+    for (size_t i = 0; i < s.x.size(); ++i) {
+      targets += scene.rows[i].target * s.x[i] - scene.rows[i].compliance * s.x[i] * s.x[i] / 2;
+    }
+    double merit = 0;
+    for (const IslandReport& island : Measure(scene.problem(), s.x).islands) merit += island.merit;
+    const double gained = KineticEnergy(scene, s.v) - KineticEnergy(scene, none.v);
+    // rounding of sums of 100 products
+    EXPECT_NEAR(merit, gained - targets, 1e-11 * KineticEnergy(scene, none.v));
+  }
+}
+
+TEST(Merit, OfSweepsFromNoneIsNeverAboveNone) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene scene = MovingPile(seed);
+    for (const int sweeps : {1, 2, 5, 40}) {
+      for (const SweepOrder order : kPaths) {
+        const Report report = test::Solve(Path(order, sweeps), scene).report;
+        EXPECT_EQ(report.guarded, 0);
+        for (const IslandReport& island : report.islands) EXPECT_LE(island.merit, 0);
+      }
+    }
+  }
+}
+
+TEST(Merit, OfBlocksIsThatOfDoubles) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Scene scene = MovingPile(seed);
+    const Solution s = test::Solve(Path(SweepOrder::kColoured, 10), scene);
+    const Report measured = Measure(scene.problem(), s.x);
+    ASSERT_EQ(s.report.islands.size(), measured.islands.size());
+    for (size_t i = 0; i < measured.islands.size(); ++i) {
+      // sums of floats
+      EXPECT_NEAR(s.report.islands[i].merit, measured.islands[i].merit,
+                  1e-4 * std::abs(measured.islands[i].merit));
+    }
+  }
+}
+
+/// The most that targets can put into the island at rest, with bounds of friction as @p x has them:
+/// the largest t'y - 1/2 y'(A + E) y inside the bounds.
+double EnergyOfTargets(Scene scene, const std::vector<double>& x) {
+  for (Body& body : scene.bodies) {
+    body.velocity = {};
+    body.impulse.setZero();
+    body.angular_impulse.setZero();
+  }
+  for (Row& row : scene.rows) {
+    if (row.parent == kNoRow) continue;
+    row.hi = row.friction * std::max(0.0, x[row.parent]);
+    row.lo = -row.hi;
+    row.parent = kNoRow;
+    row.friction = 0;
+  }
+  double energy = 0;
+  const Solution rest = test::Solve(test::PlainSweeps(20000), scene);
+  for (const IslandReport& island : Measure(scene.problem(), rest.x).islands) {
+    energy -= island.merit;
+  }
+  return energy;
+}
+
+// docs/solver.md: |v|_M <= |v_free|_M + 2 sqrt(2 e_t) for every x that is not worse than none.
+TEST(Merit, BoundsTheEnergyFromTheProblemAlone) {
+  int tight = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Scene scene = MovingPile(seed);
+    const double before =
+        std::sqrt(2 * KineticEnergy(scene, test::Solve(test::PlainSweeps(0), scene).v));
+    for (const int sweeps : {1, 3, 30}) {
+      const Solution s = test::Solve(test::PlainSweeps(sweeps), scene);
+      const double after = std::sqrt(2 * KineticEnergy(scene, s.v));
+      const double targets = EnergyOfTargets(scene, s.x);
+      EXPECT_LE(after, before + 2 * std::sqrt(2 * targets));
+      if (after > before) ++tight;
+    }
+  }
+  EXPECT_GT(tight, 0) << "no target put in anything, so nothing was tested";
+}
+
+TEST(Guards, ScaleAStartThatIsWorseThanNone) {
+  const Scene scene = test::Tower(6);
+  const std::vector<double> good = test::Solve(test::PlainSweeps(200), scene).x;
+  std::vector<double> rotten = good;
+  for (double& x : rotten) x *= 1000;
+  for (const SweepOrder order : kPaths) {
+    const Solution kept = test::Solve(Path(order, 3), scene, good);
+    EXPECT_FALSE(kept.report.islands[0].guards.start);
+    const Solution cold = test::Solve(Path(order, 3), scene);
+    const Solution guarded = test::Solve(Path(order, 3), scene, rotten);
+    EXPECT_TRUE(guarded.report.islands[0].guards.start);
+    EXPECT_EQ(guarded.report.guarded, 1);
+    // scaled by a thousandth, it is the good start again
+    EXPECT_LT(guarded.report.islands[0].merit, cold.report.islands[0].merit);
+  }
+}
+
+TEST(Guards, LeaveAStartAloneThatNobodySweeps) {
+  const Scene scene = test::Tower(2);
+  std::vector<double> rotten(scene.rows.size(), 0.0);
+  for (size_t i = 0; i < rotten.size(); ++i) rotten[i] = scene.rows[i].parent == kNoRow ? 100 : 0;
+  for (const SweepOrder order : kPaths) {
+    const Solution s = test::Solve(Path(order, 0), scene, rotten);
+    EXPECT_EQ(s.x, rotten);
+    EXPECT_EQ(s.report.guarded, 0);
+  }
+}
+
+/// Boxes on two pins each, in a row; the pins of a box contradict each other by so much [m/s].
+Scene ContradictoryBridge(int boxes, double contradiction) {
+  Scene scene;
+  for (int i = 0; i < boxes; ++i) {
+    scene.bodies.push_back(test::Box(1, {1, 0.2, 2}));
+    scene.bodies.back().impulse = {0, -test::kGravityStep, 0};
+    scene.positions.push_back({static_cast<double>(i), 0, 0});
+  }
+  for (int i = 0; i <= boxes; ++i) {
+    for (const double side : {-0.9, 0.9}) {
+      const size_t first = scene.rows.size();
+      const int a = i > 0 ? i - 1 : kWorld, b = i < boxes ? i : kWorld;
+      test::AddPin(&scene, a, b, {i - 0.5, 0, side});
+      scene.rows[first + 2].target = side * contradiction;
+    }
+  }
+  return scene;
+}
+
+double LargestImpulse(const Solution& s) {
+  double largest = 0;
+  for (const double x : s.x) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+// Pins of a box push against each other; what they do not agree on grew from frame to frame until
+// floats could not hold it.
+TEST(Guards, KeepImpulsesOfRedundantJointsWhereFloatsCanHoldThem) {
+  const Scene scene = ContradictoryBridge(10, 0.1);
+  for (const SweepOrder order : kPaths) {
+    Settings settings = test::AlwaysSteps(10);
+    settings.order = order;
+    Solver solver(settings);
+    Solution s;
+    double first = 0, last = 0;
+    for (int frame = 0; frame < 200; ++frame) {
+      s = test::Solve(&solver, scene, s.x);
+      ASSERT_TRUE(s.report.ok());
+      if (frame == 20) first = LargestImpulse(s);
+      if (frame >= 20) last = std::max(last, LargestImpulse(s));
+    }
+    EXPECT_LT(last, 1e5);
+    EXPECT_LE(last, 20 * first);
+  }
+}
+
+TEST(Guards, TakeNothingFromALoadedChain) {
+  // 3,000 m/s are what impulses of a chain with 10,000 times a link come to
+  const Scene scene = test::HangingChain(30, 1e4);
+  for (const SweepOrder order : kPaths) {
+    Settings settings = test::AlwaysSteps(10);
+    settings.order = order;
+    Solver solver(settings);
+    Solution s;
+    for (int frame = 0; frame < 20; ++frame) {
+      s = test::Solve(&solver, scene, s.x);
+      EXPECT_EQ(s.report.guarded, 0);
+    }
+    EXPECT_LT(s.report.residual_max, 1e-2);
+  }
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// Steps or sweeps, from what both were seen to do.
+#include "step/step_odds.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+/// @p cut: logarithm of what every first step divides the residual by, further ones not at all
+StepOdds Measured(double power, double cut) {
+  StepOdds odds;
+  odds.Expect(2);
+  for (int frame = 0; frame < 100; ++frame) {
+    odds.LearnSweeps(power);
+    odds.LearnStep(0, std::exp(-cut));
+    odds.LearnStep(1, 1);
+    odds.EndFrame(true);
+  }
+  return odds;
+}
+
+// After k sweeps of n the power of n / k, by hand: a step that takes half of the sweeps left pays
+// if it cuts more than 2 to the power, with half of them gone.
+TEST(StepOdds, AskForThePricesThatSweepsWouldMakeUpFor) {
+  EXPECT_NEAR(StepOdds::PricesLeft(std::log(2)), 2, 1e-12);
+  EXPECT_NEAR(StepOdds::PricesLeft(std::log(1.25)), 5, 1e-12);
+  EXPECT_NEAR(StepOdds::PricesLeft(50), 1, 1e-12);
+  EXPECT_TRUE(std::isinf(StepOdds::PricesLeft(0)));
+  EXPECT_TRUE(std::isinf(StepOdds::PricesLeft(-1)));
+}
+
+TEST(StepOdds, LearnThePowerOfSweepsAndTheCutOfSteps) {
+  const StepOdds odds = Measured(1.5, 3);
+  EXPECT_NEAR(odds.power(), 1.5, 1e-9);
+  EXPECT_GT(odds.cut(0), 2.5);
+  EXPECT_LT(odds.cut(0), 3) << "less a margin";
+  EXPECT_LT(odds.cut(1), 0) << "those after the first are known by themselves";
+}
+
+TEST(StepOdds, ForgetWhatSceneThereWas) {
+  StepOdds odds = Measured(1.5, 3);
+  for (int frame = 0; frame < 20; ++frame) {
+    odds.LearnSweeps(0.5);
+    odds.LearnStep(0, 1);
+  }
+  EXPECT_NEAR(odds.power(), 0.5, 0.01);
+  EXPECT_LT(odds.cut(0), 0);
+}
+
+// What did harm is tried again after some frames without, as if nothing were known.
+TEST(StepOdds, FadeInFramesWithoutSteps) {
+  StepOdds odds = Measured(1, -1), fresh;
+  fresh.Expect(2);
+  for (int frame = 0; frame < 20; ++frame) odds.EndFrame(false);
+  EXPECT_LT(odds.cut(0), 0);
+  for (int frame = 0; frame < 1000; ++frame) odds.EndFrame(false);
+  EXPECT_NEAR(odds.cut(0), fresh.cut(0), 0.01);
+}
+
+TEST(StepOdds, WantAFrameWithoutStepsNowAndThen) {
+  StepOdds odds;
+  odds.EndFrame(true);
+  EXPECT_TRUE(odds.stale()) << "nothing is known of sweeps";
+  odds.LearnSweeps(0.5);
+  int frames = 0;
+  for (; !odds.stale() && frames < 1000; ++frames) odds.EndFrame(true);
+  EXPECT_GE(frames, 50);
+  EXPECT_LE(frames, 100);
+  odds.EndFrame(true);
+  EXPECT_TRUE(odds.stale());
+  odds.EndFrame(false);
+  EXPECT_FALSE(odds.stale());
+}
+
+// From 3 to 30 sweeps, by hand.
+TEST(StepOdds, FindThePowerOfSweeps) {
+  EXPECT_NEAR(StepOdds::PowerOf(3, 30, 0.01), 2, 1e-12);
+  EXPECT_NEAR(StepOdds::PowerOf(3, 30, 10), -1, 1e-12);
+  EXPECT_EQ(StepOdds::PowerOf(0, 10, 0.5), 0);
+  EXPECT_EQ(StepOdds::PowerOf(10, 10, 0.5), 0);
+  EXPECT_TRUE(std::isinf(StepOdds::PowerOf(3, 10, 0)));
+  EXPECT_TRUE(std::isinf(StepOdds::PowerOf(3, 10, std::nan("")))) << "0 of 0";
+}
+
+}  // namespace
+}  // namespace cairn

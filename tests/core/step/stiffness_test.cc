@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/stiffness.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "cairn/solver.h"
+#include "tests/core/support/problems.h"
+
+namespace cairn {
+namespace {
+
+using test::Scene;
+using test::Solution;
+
+constexpr double kStep = 1.0 / 60;  // [s]
+
+/// Solves it and has the stiffness learn from that.
+Solution SolveAndLearn(const Scene& scene, GeometricStiffness* stiffness,
+                       Settings settings = test::AlwaysSteps(30)) {
+  Solution s = test::Solve(settings, scene);
+  EXPECT_TRUE(s.report.ok());
+  stiffness->Learn(kStep, scene.problem(), {.rows = s.x}, s.report);
+  return s;
+}
+
+std::vector<Body> Raised(const Scene& scene, GeometricStiffness* stiffness) {
+  std::vector<Body> bodies = scene.bodies;
+  stiffness->RaiseInertia(kStep, bodies);
+  return bodies;
+}
+
+TEST(Stiffness, RaisesALoadedLinkAsFarAsItsTensionAsks) {
+  // links of 1 kg and 1 m along z: above and below, joints pull T at 0.5 m each, so that K = T * 1
+  // m about both axes across it, and nothing about its own
+  const double load = 1000;
+  const Scene scene = test::HangingChain(3, load);
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  const std::vector<Body> raised = Raised(scene, &stiffness);
+  const Eigen::Vector3d before = scene.bodies[0].inv_inertia.diagonal();
+  const Eigen::Vector3d after = raised[0].inv_inertia.diagonal();
+  // it carries the load, the link below it, and half of itself on average
+  const double tension = (load + 1 + 0.5) * test::kGravityStep / kStep;
+  int across = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double s = kStep * kStep * tension * before[axis];
+    if (axis == 2) {
+      EXPECT_NEAR(after[axis], before[axis], 1e-6 * before[axis]) << "its own axis";
+      continue;
+    }
+    ASSERT_GT(s, 4) << "not a hard case";
+    EXPECT_NEAR(before[axis] / after[axis], 1 + (s - 2), 0.01 * s);
+    ++across;
+  }
+  EXPECT_EQ(across, 2);
+}
+
+TEST(Stiffness, LeavesWhatPullsLittleAsItIsToTheBit) {
+  const Scene scene = test::HangingChain(5, 1);
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  std::vector<Body> bodies = scene.bodies;
+  EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies).empty());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    EXPECT_EQ(bodies[i].inv_inertia, scene.bodies[i].inv_inertia);
+  }
+}
+
+TEST(Stiffness, KnowsNothingOfContacts) {
+  const Scene scene = test::Tower(10);
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  std::vector<Body> bodies = scene.bodies;
+  EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies).empty());
+}
+
+TEST(Stiffness, FadesWhenTheLoadIsGone) {
+  GeometricStiffness stiffness;
+  const Scene loaded = test::HangingChain(3, 100), free = test::HangingChain(3, 1);
+  SolveAndLearn(loaded, &stiffness);
+  double last = Raised(loaded, &stiffness)[0].inv_inertia(0, 0);
+  const double whole = loaded.bodies[0].inv_inertia(0, 0);
+  ASSERT_LT(last, whole / 2);
+  int steps = 0;
+  for (; last < whole && steps < 200; ++steps) {
+    SolveAndLearn(free, &stiffness);
+    const double now = Raised(free, &stiffness)[0].inv_inertia(0, 0);
+    EXPECT_GE(now, last);
+    EXPECT_LE(whole / now - 1, 0.9 * (whole / last + 1)) << "held by 0.9 of what was needed";
+    last = now;
+  }
+  EXPECT_EQ(last, whole);
+  EXPECT_LT(steps, 60);
+}
+
+TEST(Stiffness, MistakesNobodyForSomebodyElse) {
+  Scene scene = test::HangingChain(3, 100);
+  for (size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].id = i + 1;
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  Scene other = scene;
+  for (Body& body : other.bodies) body.inv_mass *= 2;  // others, that got their ids
+  EXPECT_EQ(Raised(other, &stiffness)[0].inv_inertia, other.bodies[0].inv_inertia);
+  EXPECT_NE(Raised(scene, &stiffness)[0].inv_inertia, scene.bodies[0].inv_inertia);
+  stiffness.Reset();
+  EXPECT_EQ(Raised(scene, &stiffness)[0].inv_inertia, scene.bodies[0].inv_inertia);
+}
+
+TEST(Stiffness, AveragesWhatSweepsAloneLeave) {
+  const Scene scene = test::HangingChain(3, 100);
+  GeometricStiffness once, often;
+  SolveAndLearn(scene, &once);
+  Settings sweeps = test::PlainSweeps(2000);
+  // the first of them counts by a tenth
+  SolveAndLearn(scene, &often, sweeps);
+  EXPECT_GT(Raised(scene, &often)[0].inv_inertia(0, 0),
+            2 * Raised(scene, &once)[0].inv_inertia(0, 0));
+  for (int i = 0; i < 100; ++i) SolveAndLearn(scene, &often, sweeps);
+  EXPECT_NEAR(Raised(scene, &often)[0].inv_inertia(0, 0), Raised(scene, &once)[0].inv_inertia(0, 0),
+              0.01);
+}
+
+TEST(Stiffness, DampsTheSpinOfRaisedAxesALittle) {
+  Scene scene = test::HangingChain(3, 1e4);
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  for (Body& body : scene.bodies) body.velocity.angular = {1, 1, 1};
+  stiffness.Apply(kStep, scene.bodies);
+  EXPECT_NEAR(scene.bodies[0].velocity.angular.x(), 0.98, 0.001);
+  EXPECT_NEAR(scene.bodies[0].velocity.angular.z(), 1, 1e-6);
+}
+
+TEST(Stiffness, TakesBodiesThatCannotMoveForWhatTheyAre) {
+  // the chain hangs from a lift
+  Scene scene = test::HangingChain(3, 1000);
+  scene.bodies.push_back({});
+  for (int i = 0; i < 3; ++i) scene.rows[i].body_b = 3;
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  const std::vector<Body> raised = Raised(scene, &stiffness);
+  EXPECT_LT(raised[0].inv_inertia(0, 0), scene.bodies[0].inv_inertia(0, 0) / 2);
+  EXPECT_EQ(raised[3].inv_inertia, scene.bodies[3].inv_inertia);
+}
+
+// Nothing outside takes up what raised inertia keeps of an impulse.
+TEST(Stiffness, LeavesIslandsAloneThatNothingHolds) {
+  Scene scene = test::HangingChain(3, 1000);
+  scene.rows.erase(scene.rows.begin(), scene.rows.begin() + 3);  // the pin to the world
+  for (Body& body : scene.bodies) body.impulse.setZero();
+  scene.bodies[0].impulse.z() = 1000;  // and yet it is under tension
+  GeometricStiffness stiffness;
+  const Solution s = SolveAndLearn(scene, &stiffness);
+  EXPECT_GT(std::abs(s.x[2]), 100);
+  std::vector<Body> bodies = scene.bodies;
+  EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies).empty());
+}
+
+TEST(Stiffness, LearnsNothingFromWhatWasRefused) {
+  Scene scene = test::HangingChain(3, 100);
+  GeometricStiffness stiffness;
+  Report refused;
+  refused.status = Status::kNotFinite;
+  std::vector<double> x(scene.rows.size(), 100.0);
+  stiffness.Learn(kStep, scene.problem(), {.rows = x}, refused);
+  Report other;  // of another problem: it names no islands
+  stiffness.Learn(kStep, scene.problem(), {.rows = x}, other);
+  EXPECT_EQ(Raised(scene, &stiffness)[0].inv_inertia, scene.bodies[0].inv_inertia);
+}
+
+}  // namespace
+}  // namespace cairn
