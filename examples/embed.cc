@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The solver without an engine: one contact with friction, solved within a budget.
 
-// [readme]
+// [program]
 #include <cairn/solver.h>
 
 #include <Eigen/Geometry>
@@ -38,4 +38,4 @@ int main() {
   std::printf("impulses %.3f and %.3f N s, rolls at %.3f m/s, residual %.0e m/s\n", impulses[0],
               impulses[1], v.x(), report.residual_max);
 }
-// [/readme]
+// [/program]

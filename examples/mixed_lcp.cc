@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A mixed LCP in matrix form: what a researcher or another engine hands over.
 
-// [readme]
+// [program]
 #include <cairn/solver.h>
 
 #include <cstdio>
@@ -25,4 +25,4 @@ int main() {
   std::printf("u = %.3f, v = (%.3f, %.3f), %d factorisation, %s\n", u[0], v[0], v[1],
               report.factorisations, std::string(Describe(report.stop)).c_str());
 }
-// [/readme]
+// [/program]
