@@ -9,9 +9,10 @@
 
 namespace cairn {
 
-/// The one place where input is judged. Everything behind it may rely on what it checks.
-/// On a status other than kOk, bad_row, bad_body, bad_manifold or bad_joint of the report names the
-/// first offender.
+/// Judges a whole input and names what is wrong with it. The path in double precision relies on
+/// what is checked here. Blocks judge numbers as they are filled (plan/row_law, pack/): what they
+/// refuse comes here. On a status other than kOk, bad_row, bad_body, bad_manifold or bad_joint of
+/// the report names the first offender.
 Report Validate(const ContactProblem& problem, const Impulses& impulses);
 
 /// Starts, and motions, belong to the problem.

@@ -248,8 +248,6 @@ Scene MillionRows() {
   return scene;
 }
 
-// Copying in and out is not part of the budget, and takes a second here. 60 s is for sanitizers on
-// a busy machine: a whole solve takes hours.
 TEST(Budget, OfTimeSaysWhatStepsTookAndWereToTake) {
   const Scene scene = BigPile(3);
   const Budget day = Budget::Time(std::chrono::hours(24));
@@ -307,6 +305,8 @@ TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
   EXPECT_EQ(prices.frames_refused, 0);
 }
 
+// Copying in and out is not part of the budget, and takes a second here. 60 s is for sanitizers on
+// a busy machine: a whole solve takes hours.
 TEST(Budget, EndsAProblemOfAMillionRows) {
   Scene scene = MillionRows();
   const auto start = std::chrono::steady_clock::now();
