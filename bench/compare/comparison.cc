@@ -173,7 +173,8 @@ void ReportFailures(const LaneComparison& lane, Comparison* result) {
 
 /// Frames of such a lane do other work in each repetition.
 bool GoesByTheClock(const RecordedLane& lane) {
-  return !lane.effort.ends_with("iterations") && lane.effort != "until done";
+  return !lane.effort.ends_with("iterations") && !lane.effort.ends_with("units") &&
+         lane.effort != "until done";
 }
 
 void CompareScene(const RecordedScene& before, const RecordedScene& after, const RunFile& old_file,

@@ -92,7 +92,8 @@ void ReadCircumstances(const Json& json, RunFile* file) {
                     {"precision of Bullet", Words(bullet.at("precision"))},
                     {"frames", Words(json.at("frames"))},
                     {"warm-up frames", Words(run.at("warmup_frames"))},
-                    {"budget [ms]", Words(json.at("budget_ms"))}};
+                    {"budget [ms]", Words(json.at("budget_ms"))},
+                    {"budget [units]", Words(json.value("budget_units", Json()))}};
   file->expected = {{"SIMD target", Words(host.at("simd_target"))},
                     {"threads of Cairn", Words(run.at("threads"))},
                     {"core pinned to", Words(run.at("pinned_to_core"))},

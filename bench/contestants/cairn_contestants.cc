@@ -15,7 +15,9 @@ void ObservedCairn::allSolved(const btContactSolverInfo& info, btIDebugDraw* deb
 
 void CairnContestant::Begin(const Effort& effort, btContactSolverInfo* info) {
   info->m_numIterations = effort.iterations;
-  solver_.settings().budget = effort.budget ? Budget::Time(*effort.budget) : Budget::Unlimited();
+  solver_.settings().budget = effort.units    ? Budget::Work(*effort.units)
+                              : effort.budget ? Budget::Time(*effort.budget)
+                                              : Budget::Unlimited();
 }
 
 Work CairnContestant::work() const {

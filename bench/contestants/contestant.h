@@ -4,6 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -20,6 +21,7 @@ namespace cairn::cli {
 struct Effort {
   int iterations = 10;                             ///< For solvers that count.
   std::optional<std::chrono::nanoseconds> budget;  ///< For solvers that have a clock.
+  std::optional<std::int64_t> units;               ///< For these, instead: counted work.
 };
 
 /// What a solver did in a substep.

@@ -20,6 +20,7 @@ Effort InitialEffort(const SolverChoice& choice, const RunOptions& options) {
   if (rule.kind == IterationRule::Kind::kFixed) effort.iterations = rule.count;
   if (choice.entry->control == Control::kClock && !choice.own_iterations) {
     effort.budget = options.budget;
+    effort.units = options.units;
   }
   return effort;
 }
@@ -31,7 +32,7 @@ bool IsFitted(const SolverChoice& choice, const RunOptions& options) {
 
 std::string Describe(const Effort& effort, Control control) {
   if (control == Control::kNone) return "until done";
-  if (effort.budget) return FormatDuration(*effort.budget);
+  if (effort.budget || effort.units) return FormatBudget({effort.budget, effort.units});
   return fmt::format("{} iterations", effort.iterations);
 }
 

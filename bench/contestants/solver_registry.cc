@@ -66,7 +66,7 @@ std::span<const SolverEntry> Solvers() {
        kIterations, &Make<QuarterImpulses>, QuarterImpulses::kParts},
       {"cairn", "Cairn: sweeps, and subspace steps where they pay", Maker::kCairn, kClock,
        &MakeCairn},
-      {"cairn-pgs", "Cairn without subspace steps: plain sweeps", Maker::kCairn, kClock,
+      {"cairn-pgs", "Cairn without subspace steps: accelerated sweeps", Maker::kCairn, kClock,
        &MakeCairnPgs},
   };
   return solvers;

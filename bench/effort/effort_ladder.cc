@@ -20,12 +20,12 @@ std::vector<Effort> Efforts(const SolverEntry& entry) {
   if (control == Control::kNone) return {Effort{}};
   if (control == Control::kIterations) {
     for (const int iterations : kIterations)
-      efforts.push_back({.iterations = iterations, .budget = {}});
+      efforts.push_back({.iterations = iterations, .budget = {}, .units = {}});
     return efforts;
   }
   for (const double budget : kBudgets) {
     const auto time = std::chrono::nanoseconds(static_cast<long long>(budget * 1e6));
-    efforts.push_back({.iterations = 10, .budget = time});
+    efforts.push_back({.iterations = 10, .budget = time, .units = {}});
   }
   return efforts;
 }

@@ -26,6 +26,10 @@ RecordedFrame Look(const std::string& path) {
           .bytes = std::filesystem::file_size(path)};
 }
 
+std::string PathOf(const RecordOptions& options, const SceneChoice& scene, int frame) {
+  return fmt::format("{}/{}-{:06}.cairn", options.folder, scene.info->name, frame);
+}
+
 /// A scene whose frames are written.
 class RecordedScene {
  public:
@@ -34,8 +38,7 @@ class RecordedScene {
 
   void Step(int frame) {
     const bool wanted = options_.frames.Contains(frame);
-    const std::string path =
-        fmt::format("{}/{}-{:06}.cairn", options_.folder, scene_.info->name, frame);
+    const std::string path = PathOf(options_, scene_, frame);
     if (wanted) Ask(frame, path);
     lane_.Step(Lane::Observing::kOff);
     if (wanted) Check(frame, path);
@@ -81,16 +84,29 @@ class RecordedScene {
 
 }  // namespace
 
+void RefuseToOverwrite(const RecordOptions& options) {
+  for (const SceneChoice& scene : options.run.scenes) {
+    for (int frame = 0; frame < options.run.frames; ++frame) {
+      const std::string path = PathOf(options, scene, frame);
+      if (!options.frames.Contains(frame) || !std::filesystem::exists(path)) continue;
+      throw Failure(kBadInput, fmt::format("'{}' is there already: --force writes over it", path));
+    }
+  }
+}
+
 std::vector<RecordedFrame> RecordScenes(const RecordOptions& options) {
   std::vector<RecordedFrame> all;
   Progress progress(options.run.progress);
+  double scenes_done = 0;
   for (const SceneChoice& choice : options.run.scenes) {
     RecordedScene scene(choice, options);
     for (int frame = 0; frame < options.run.frames; ++frame) {
-      progress.Show(
-          fmt::format("{}: frame {} of {}", choice.info->name, frame, options.run.frames));
+      progress.Show(fmt::format("{}: frame {} of {}", choice.info->name, frame, options.run.frames),
+                    (scenes_done + 1.0 * frame / options.run.frames) /
+                        static_cast<double>(options.run.scenes.size()));
       scene.Step(frame);
     }
+    ++scenes_done;
     for (RecordedFrame& frame : scene.TakeFrames()) all.push_back(std::move(frame));
   }
   return all;

@@ -23,6 +23,9 @@ struct RecordedFrame {
   std::size_t bytes = 0;
 };
 
+/// @throws Failure (kBadInput) that names a file of these that is there already
+void RefuseToOverwrite(const RecordOptions& options);
+
 /// Plays the scenes and writes the frames asked for, FOLDER/SCENE-000040.cairn: the problem and
 /// the start that the solver had; of a solver of Bullet's, those it would have had in the adapter.
 /// @throws Failure if a file cannot be written, or the solver failed before the last frame

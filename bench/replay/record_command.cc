@@ -22,6 +22,7 @@ struct RecordWords {
   std::vector<std::string> scenes;
   std::string frames, folder, solver = "cairn";
   std::string budget, iterations, size, seed = "0";
+  bool force = false;
   OutputWords output;
 };
 
@@ -35,6 +36,7 @@ solver, on any machine. With a solver of Bullet's, the state is the one that sol
 The same files come of any program that uses Cairn in Bullet: CAIRN_RECORD=DIR, and
 CAIRN_RECORD_FRAMES=40,90 to choose frames. docs/recording.md has the format.
 
+A file that is there already is not written over without --force.
 Exit codes: 0 fine, 1 the solver failed, 2 usage, 3 a file cannot be written.)";
 
 RecordOptions Check(const RecordWords& words) {
@@ -45,7 +47,11 @@ RecordOptions Check(const RecordWords& words) {
   run.scenes = ParseScenes(words.scenes, words.size, run.seed);
   run.solvers = ParseSolvers(words.solver);
   if (run.solvers.size() != 1) throw Failure(kUsage, "--solver: one solver makes the frames");
-  if (!words.budget.empty()) run.budget = ParseDuration("--budget", words.budget);
+  if (!words.budget.empty()) {
+    const FrameBudget budget = ParseBudget("--budget", words.budget);
+    run.budget = budget.time;
+    run.units = budget.units;
+  }
   if (!words.iterations.empty()) {
     run.iterations = ParseIterations("--iterations", words.iterations);
   }
@@ -68,6 +74,7 @@ RecordOptions Check(const RecordWords& words) {
 int DoRecord(const RecordWords& words) {
   const RecordOptions options = Check(words);
   CheckFolder(options.folder);
+  if (!words.force) RefuseToOverwrite(options);
   for (const RecordedFrame& frame : RecordScenes(options)) {
     fmt::print("{}  {} bodies, {} rows of joints and others, {} contact points, {:.1f} kB\n",
                frame.path, frame.bodies, frame.joint_rows, frame.points,
@@ -93,11 +100,12 @@ Command AddRecordCommand(CLI::App* app) {
   record->get_option("--frames")->required();
   record->get_option("--out")->required();
   add("--solver", &words->solver, "Solver that makes the frames; default cairn", "S");
-  add("--budget", &words->budget, "Solver time for a frame, as for cairn run", "TIME");
+  add("--budget", &words->budget, "What a frame may cost, as for cairn run", "B");
   add("--iterations", &words->iterations, "Iterations of the solver; default 10", "N");
   add("--size", &words->size, "Size of the scene; see cairn list scenes", "N");
   add("--seed", &words->seed,
       "Displaces bodies by up to 0.1 mm, differently for each seed; default 0: none", "N");
+  record->add_flag("--force", words->force, "Write over recordings that are there already");
   AddOutputWords(record, &words->output);
   return {record, [words](const std::string&) { return DoRecord(*words); }};
 }

@@ -140,6 +140,7 @@ std::string ToJson(const RunResult& run) {
                      {"context", context},
                      {"frames", run.frames},
                      {"budget_ms", run.budget ? Json(Milliseconds(*run.budget)) : Json(nullptr)},
+                     {"budget_units", Maybe(run.units)},
                      {"scenes", scenes}};
   return json.dump(1) + "\n";
 }

@@ -103,6 +103,7 @@ struct RunResult : RunContext {
   Setup setup;
   bool show_noise = false;
   std::vector<SceneResult> scenes;
+  std::optional<std::int64_t> units;  ///< Of work, instead of a budget of time.
 
   /// A solver of Cairn failed.
   bool check_failed() const;

@@ -132,8 +132,15 @@ void AddRepetition(int number, SceneResult again, SceneResult* scene) {
 }  // namespace
 
 RunResult Run(const RunOptions& options, const std::string& command) {
-  RunResult result{DescribeContext(command), options.budget, options.frames, options.warmup,
-                   options.repeat,           options.setup,  options.noise,  {}};
+  RunResult result{DescribeContext(command),
+                   options.budget,
+                   options.frames,
+                   options.warmup,
+                   options.repeat,
+                   options.setup,
+                   options.noise,
+                   {},
+                   options.units};
 
   Progress progress(options.progress);
   Metronome metronome;
@@ -142,10 +149,15 @@ RunResult Run(const RunOptions& options, const std::string& command) {
       const SceneChoice& scene = options.scenes[i];
       SceneRun run(scene, options, &metronome);
       for (int frame = 0; frame < options.frames && !run.AllFailed(); ++frame) {
+        const std::string of_repetitions =
+            options.repeat == 1 ? ""
+                                : fmt::format(", repetition {} of {}", repetition, options.repeat);
+        // scenes count alike, as nobody knows which is dear
+        const double scenes_done = (repetition - 1.0) * static_cast<double>(options.scenes.size()) +
+                                   static_cast<double>(i) + 1.0 * frame / options.frames;
         progress.Show(fmt::format("{}: frame {} of {}{}", scene.info->name, frame, options.frames,
-                                  options.repeat == 1 ? ""
-                                                      : fmt::format(", repetition {} of {}",
-                                                                    repetition, options.repeat)));
+                                  of_repetitions),
+                      scenes_done / (options.repeat * static_cast<double>(options.scenes.size())));
         run.Step(frame);
       }
       if (repetition == 1) {

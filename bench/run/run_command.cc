@@ -41,6 +41,8 @@ constexpr const char* kRunNotes =
   --budget B                 Cairn stops at the clock after B of solver time. Bullet's solvers have
                              no clock: they make Bullet's default of 10 iterations, and frames that
                              took longer than B are counted ("over budget").
+  --budget 100000units       Cairn stops after so much work, counted: the same results each time.
+                             A unit is one relaxation of a row
   --budget B --iterations N  the same with N iterations for Bullet's solvers
   --budget B --iterations fit
                              the iterations of Bullet's solvers are adapted from frame to frame to
@@ -60,10 +62,16 @@ RunOptions Check(const RunWords& words) {
     options.scenes.push_back(ImportScene(path, options.seed));
   }
   if (options.scenes.empty()) {
-    throw Failure(kUsage, "run needs a scene, or a world that Bullet saved: --import FILE");
+    throw Failure(kUsage,
+                  "run needs a scene ('cairn list scenes' shows all), or a world that "
+                  "Bullet saved: --import FILE");
   }
   options.solvers = ParseSolvers(words.solvers);
-  if (!words.budget.empty()) options.budget = ParseDuration("--budget", words.budget);
+  if (!words.budget.empty()) {
+    const FrameBudget budget = ParseBudget("--budget", words.budget);
+    options.budget = budget.time;
+    options.units = budget.units;
+  }
   if (!words.iterations.empty()) {
     options.iterations = ParseIterations("--iterations", words.iterations);
   }
@@ -95,7 +103,8 @@ RunOptions Check(const RunWords& words) {
     fit = fit || (solver.own_iterations && is_fit(*solver.own_iterations));
   }
   if (fit && !options.budget) {
-    throw Failure(kUsage, "iterations can only be made to fit a budget: add --budget 2ms, say");
+    throw Failure(kUsage,
+                  "iterations can only be made to fit a budget of time: add --budget 2ms, say");
   }
   return options;
 }
@@ -143,7 +152,8 @@ Command AddRunCommand(CLI::App* app) {
       ->type_name("A,B,...")
       ->take_last()
       ->capture_default_str();
-  add("--budget", &words->budget, "Solver time for a frame, such as 2ms, 500us, 0.002s", "TIME");
+  add("--budget", &words->budget,
+      "Solver time for a frame, such as 2ms, 500us, 0.002s; or work, such as 100000units", "B");
   add("--iterations", &words->iterations, "Iterations of solvers, or fit (below); default 10", "N");
   add("--frames", &words->frames, "Frames of 1/60 s; default 300", "N");
   add("--size", &words->size, "Size of the scene; see cairn list scenes", "N");

@@ -108,10 +108,11 @@ TextTable FactsTable(const SceneResult& scene, const RunResult& run) {
 }
 
 std::string SceneHeading(const SceneResult& scene, const RunResult& run) {
-  return fmt::format(
-      "{}, size {}, seed {}: {} bodies, {} joints, {} frames of 1/60 s, {}", scene.name, scene.size,
-      scene.seed, scene.bodies, scene.joints, run.frames,
-      run.budget ? "budget " + FormatDuration(*run.budget) + " a frame" : std::string("no budget"));
+  return fmt::format("{}, size {}, seed {}: {} bodies, {} joints, {} frames of 1/60 s, {}",
+                     scene.name, scene.size, scene.seed, scene.bodies, scene.joints, run.frames,
+                     run.budget || run.units
+                         ? fmt::format("budget {} a frame", FormatBudget({run.budget, run.units}))
+                         : std::string("no budget"));
 }
 
 std::string DescribeRun(const RunResult& run) {

@@ -186,9 +186,9 @@ class Chooser {
         throw Failure(kUsage, fmt::format("--set {}: {} has no parameters", setting.name,
                                           generators_.front()->name));
       }
-      throw Failure(
-          kUsage, fmt::format("unknown parameter '{}': did you mean '{}'? There are {}",
-                              setting.name, Nearest(setting.name, known), fmt::join(known, ", ")));
+      const std::string near = DidYouMean(setting.name, known);
+      throw Failure(kUsage, fmt::format("unknown parameter '{}': {}{} are {}", setting.name, near,
+                                        near.empty() ? "there" : "There", fmt::join(known, ", ")));
     }
   }
 

@@ -44,6 +44,26 @@ std::chrono::nanoseconds ParseDuration(std::string_view option, std::string_view
   Refuse(option, text, fmt::format("'{}' is not one of the units s, ms, us, ns", name));
 }
 
+FrameBudget ParseBudget(std::string_view option, std::string_view text) {
+  constexpr std::string_view kUnit = "units";
+  constexpr std::int64_t kMostUnits = 1'000'000'000'000;
+  if (!text.ends_with(kUnit)) return {.time = ParseDuration(option, text), .units = {}};
+  std::int64_t units = 0;
+  const char* const end = text.data() + text.size() - kUnit.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, units);
+  if (error != std::errc{} || rest != end || units < 1 || units > kMostUnits) {
+    throw Failure(kUsage, fmt::format("{} '{}': write a whole number of units from 1 to {}, such "
+                                      "as 100000units",
+                                      option, text, kMostUnits));
+  }
+  return {.time = {}, .units = units};
+}
+
+std::string FormatBudget(const FrameBudget& budget) {
+  if (budget.units) return fmt::format("{} units", *budget.units);
+  return budget.time ? FormatDuration(*budget.time) : "no budget";
+}
+
 std::string FormatDuration(std::chrono::nanoseconds time) {
   const double nanoseconds = static_cast<double>(time.count());
   for (const Unit& unit : kUnits) {

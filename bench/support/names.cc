@@ -29,10 +29,16 @@ int EditDistance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::string Nearest(std::string_view word, std::span<const std::string> names) {
-  return *std::min_element(names.begin(), names.end(), [word](const auto& a, const auto& b) {
-    return EditDistance(word, a) < EditDistance(word, b);
-  });
+std::string DidYouMean(std::string_view word, std::span<const std::string> names) {
+  int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  std::string nearest;
+  for (const std::string& name : names) {
+    const int distance = EditDistance(word, name);
+    if (distance >= least) continue;
+    least = distance;
+    nearest = name;
+  }
+  return nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
 }
 
 size_t FindName(std::string_view kind, std::string_view word, std::span<const std::string> names,
@@ -48,8 +54,8 @@ size_t FindName(std::string_view kind, std::string_view word, std::span<const st
     for (size_t i : fitting) choices += (choices.empty() ? "" : ", ") + names[i];
     throw Failure(kUsage, fmt::format("'{}' could be any of these {}s: {}", word, kind, choices));
   }
-  throw Failure(kUsage, fmt::format("unknown {} '{}': did you mean '{}'? {}", kind, word,
-                                    Nearest(word, names), help));
+  throw Failure(kUsage,
+                fmt::format("unknown {} '{}': {}{}", kind, word, DidYouMean(word, names), help));
 }
 
 std::vector<std::string> Split(std::string_view text, char separator) {

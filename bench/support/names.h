@@ -11,14 +11,15 @@ namespace cairn::cli {
 /// Changes of one letter (insert, delete, replace, swap two neighbours) that make `b` of `a`.
 int EditDistance(std::string_view a, std::string_view b);
 
-/// The name nearest to `word`. @pre names is not empty
-std::string Nearest(std::string_view word, std::span<const std::string> names);
+/// "did you mean 'castle'? " with the name nearest to `word`, or nothing if none is close: up to a
+/// third of its letters may be wrong.
+std::string DidYouMean(std::string_view word, std::span<const std::string> names);
 
 /// The index of the name that a user means by `word`: the name itself, or a prefix that no other
 /// name has.
 /// @param kind  what the names are, for the message: "scene", "solver", "command"
 /// @param help  how to see all names, for the message
-/// @throws Failure (kUsage) with the nearest name.
+/// @throws Failure (kUsage) with the nearest name, if one is close.
 size_t FindName(std::string_view kind, std::string_view word, std::span<const std::string> names,
                 std::string_view help);
 

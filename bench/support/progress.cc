@@ -3,9 +3,19 @@
 
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <cstdio>
 
 namespace cairn::cli {
+
+std::string TimeLeft(double seconds, double done) {
+  constexpr double kLeastDone = 0.02;
+  if (!(done >= kLeastDone)) return "";
+  const double left = seconds * (1 - done) / done;
+  if (left < 90) return fmt::format("{:.0f} s left", left);
+  return fmt::format("{:.0f} min left", left / 60);
+}
 
 Progress::Progress(ProgressMode mode)
     : enabled_(mode == ProgressMode::kAlways ||
@@ -13,6 +23,12 @@ Progress::Progress(ProgressMode mode)
 
 Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::Show(const std::string& text, double done) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  const std::string left = TimeLeft(seconds, done);
+  Show(left.empty() ? text : fmt::format("{}, {}", text, left));
 }
 
 void Progress::Show(const std::string& text) {

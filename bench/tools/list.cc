@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "contestants/solver_registry.h"
 #include "lcp/lcp_solvers.h"
@@ -12,9 +13,12 @@
 #include "solve/problem_choice.h"
 
 namespace cairn::cli {
+namespace {
 
-void ListScenes(ListForm form) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+using Json = nlohmann::ordered_json;
+
+Json SceneList(ListForm form) {
+  Json json = Json::array();
   for (const bench::SceneInfo& scene : bench::Scenes()) {
     if (form == ListForm::kText) {
       fmt::print("{:<14} {}; size {} ({} to {} {})\n", scene.name, scene.description,
@@ -27,17 +31,17 @@ void ListScenes(ListForm form) {
                     {"min_size", scene.min_size},
                     {"max_size", scene.max_size}});
   }
-  if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+  return json;
 }
 
-void ListProblems(ListForm form) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+Json ProblemList(ListForm form) {
+  Json json = Json::array();
   for (const problems::Generator& generator : KnownGenerators()) {
     if (form == ListForm::kText) {
       fmt::print("{:<18} {}; size {} ({} to {} {})\n", generator.name, generator.help,
                  generator.size, generator.min_size, generator.max_size, generator.size_help);
     }
-    nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
+    Json parameters = Json::array();
     for (const problems::Parameter& parameter : generator.parameters) {
       if (form == ListForm::kText) {
         fmt::print("  {:<16} {}; {:g} ({:g} to {:g})\n", parameter.name, parameter.help,
@@ -57,11 +61,11 @@ void ListProblems(ListForm form) {
                     {"max_size", generator.max_size},
                     {"parameters", parameters}});
   }
-  if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+  return json;
 }
 
-void ListSolvers(ListForm form) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+Json SolverList(ListForm form) {
+  Json json = Json::array();
   const auto add = [&](const auto& solvers, std::string_view command, std::string_view takes) {
     for (const auto& solver : solvers) {
       if (form == ListForm::kText) {
@@ -76,7 +80,33 @@ void ListSolvers(ListForm form) {
   add(Solvers(), "run", "worlds");
   add(LcpSolvers(), "solve", "matrices");
   add(RowSolvers(), "solve", "frames");
+  return json;
+}
+
+/// Text has been printed already.
+void Print(const Json& json, ListForm form) {
   if (form == ListForm::kJson) fmt::print("{}\n", json.dump(1));
+}
+
+}  // namespace
+
+void ListScenes(ListForm form) { Print(SceneList(form), form); }
+void ListProblems(ListForm form) { Print(ProblemList(form), form); }
+void ListSolvers(ListForm form) { Print(SolverList(form), form); }
+
+void ListAll(ListForm form) {
+  const std::tuple<const char*, const char*, Json (*)(ListForm)> lists[] = {
+      {"scenes", "cairn run, cairn record", &SceneList},
+      {"problems", "cairn solve", &ProblemList},
+      {"solvers", "--solver", &SolverList}};
+  Json all;
+  for (const auto& [name, used_by, list] : lists) {
+    if (form == ListForm::kText) {
+      fmt::print("{}{}, for {}:\n", all.empty() ? "" : "\n", name, used_by);
+    }
+    all[name] = list(form);
+  }
+  Print(all, form);
 }
 
 }  // namespace cairn::cli

@@ -9,5 +9,7 @@ enum class ListForm { kText, kJson };
 void ListScenes(ListForm form);
 void ListProblems(ListForm form);
 void ListSolvers(ListForm form);
+/// All three, with what they are for; as JSON an object of the three.
+void ListAll(ListForm form);
 
 }  // namespace cairn::cli

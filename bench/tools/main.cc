@@ -39,9 +39,8 @@ void RefuseUnknown(const CLI::App& command) {
     throw Failure(kUsage, fmt::format("'{}' is not expected here; see 'cairn {} --help'", word,
                                       command.get_name()));
   }
-  throw Failure(kUsage, fmt::format("unknown option '{}': did you mean '{}'? 'cairn {} --help' "
-                                    "shows all",
-                                    word, Nearest(word, names), command.get_name()));
+  throw Failure(kUsage, fmt::format("unknown option '{}': {}'cairn {} --help' shows all", word,
+                                    DidYouMean(word, names), command.get_name()));
 }
 
 int RefuseSyntax(const CLI::App& app, const CLI::ParseError& error) {
@@ -71,19 +70,28 @@ Command AddList(CLI::App* app) {
     bool json = false;
   };
   const auto words = std::make_shared<Words>();
-  CLI::App* const list = app->add_subcommand("list", "List scenes, problems or solvers");
-  list->add_option("what", words->what, "scenes, problems or solvers")
-      ->required()
+  CLI::App* const list = app->add_subcommand("list", "List scenes, problems and solvers");
+  list->add_option("what", words->what, "scenes, problems or solvers; default all of them")
       ->type_name("WHAT");
   list->add_flag("--json", words->json, "As JSON");
   return {list, [words](const std::string&) {
+            const ListForm form = words->json ? ListForm::kJson : ListForm::kText;
+            if (words->what.empty()) {
+              ListAll(form);
+              return kFine;
+            }
             const Arguments kinds = {"scenes", "problems", "solvers"};
             void (*const lists[])(ListForm) = {&ListScenes, &ListProblems, &ListSolvers};
-            const size_t kind =
-                FindName("list", words->what, kinds, "write scenes, problems or solvers");
-            lists[kind](words->json ? ListForm::kJson : ListForm::kText);
+            lists[FindName("list", words->what, kinds, "write scenes, problems or solvers")](form);
             return kFine;
           }};
+}
+
+/// `cairn` alone shows what there is, `cairn help run` is `cairn run --help`.
+void TakeHelp(Arguments* arguments) {
+  const bool help = !arguments->empty() && arguments->front() == "help";
+  if (help) arguments->erase(arguments->begin());
+  if (help || arguments->empty()) arguments->push_back("--help");
 }
 
 int Main(Arguments arguments) {
@@ -97,8 +105,10 @@ int Main(Arguments arguments) {
   app.require_subcommand(1);
   app.footer(
       "--float64, or --precision float64, with any command: with Bullet in double precision.\n"
-      "'cairn COMMAND --help' says more. First tries: cairn run tower --budget 2ms,\n"
-      "cairn solve journal-bearing");
+      "'cairn COMMAND --help' or 'cairn help COMMAND' says more, 'cairn list' what there is to "
+      "run.\n"
+      "First tries: cairn run tower --budget 2ms, cairn solve journal-bearing");
+  TakeHelp(&arguments);
   const Command commands[] = {
       AddDoctor(&app),        AddList(&app),         AddRunCommand(&app),   AddCompareCommand(&app),
       AddRecordCommand(&app), AddSolveCommand(&app), AddWorldsCommand(&app)};

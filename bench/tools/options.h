@@ -19,6 +19,7 @@ struct RunOptions {
   std::vector<SceneChoice> scenes;
   std::vector<SolverChoice> solvers;
   std::optional<std::chrono::nanoseconds> budget;
+  std::optional<std::int64_t> units;  ///< Work for a frame, instead of a budget of time.
   IterationRule iterations;
   int frames = 300;
   int warmup = 0;  ///< The first frames, which are run but do not count.

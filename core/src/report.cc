@@ -6,7 +6,7 @@ namespace cairn {
 std::string_view Describe(Status status) {
   switch (status) {
     case Status::kOk:
-      return "solved as far as the budget and the sweep limit allow";
+      return "solved; the reason for stopping says how far";
     case Status::kBadSettings:
       return "a setting is out of its range";
     case Status::kEmptyProblem:

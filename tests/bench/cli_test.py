@@ -72,6 +72,22 @@ class HelpTest(CairnTest):
             self.assertEqual([line.split()[0] for line in lines], names)
             self.assertIn(known, names)
 
+    def test_the_tool_alone_shows_what_there_is(self):
+        self.assertEqual(self.fine(), self.fine("--help"))
+
+    def test_help_is_a_command_too(self):
+        self.assertEqual(self.fine("help"), self.fine("--help"))
+        self.assertEqual(self.fine("help", "run"), self.fine("run", "--help"))
+        self.assertIn("unknown command 'nope'", self.refused(USAGE, "help", "nope"))
+
+    def test_list_alone_lists_everything(self):
+        text = self.fine("list")
+        lists = json.loads(self.fine("list", "--json"))
+        self.assertEqual(list(lists), ["scenes", "problems", "solvers"])
+        for kind, entries in lists.items():
+            self.assertEqual(entries, json.loads(self.fine("list", kind, "--json")))
+            self.assertIn(self.fine("list", kind), text)
+
     def test_a_command_may_be_shortened(self):
         self.assertEqual(self.fine("li", "sce"), self.fine("list", "scenes"))
 
@@ -96,9 +112,17 @@ class RefusalTest(CairnTest):
         message = self.refused(USAGE, "run", "tower", "--solver", "bullet")
         self.assertIn("bullet-si, bullet-nncg, bullet-dantzig", message)
 
-    def test_no_command_and_no_scene_are_usage_errors(self):
-        self.refused(USAGE)
-        self.refused(USAGE, "run")
+    def test_no_scene_is_a_usage_error_that_says_where_scenes_are_listed(self):
+        self.assertIn("cairn list scenes", self.refused(USAGE, "run"))
+
+    def test_what_is_like_nothing_gets_no_suggestion(self):
+        for words, all_of_them in ((("xyzzy",), "'cairn --help' shows all"),
+                                   (("run", "xyzzy"), "'cairn list scenes' shows all"),
+                                   (("run", "tower", "--xyzzy"), "'cairn run --help' shows all")):
+            message = self.refused(USAGE, *words)
+            self.assertIn("unknown", message)
+            self.assertIn(all_of_them, message)
+            self.assertNotIn("did you mean", message)
 
     def test_a_budget_that_is_no_time_is_explained(self):
         for text, why in (("2", "no unit"), ("2mz", "'mz'"), ("-2ms", "not more than 0"),
@@ -107,6 +131,11 @@ class RefusalTest(CairnTest):
             message = self.refused(USAGE, "run", "tower", "--budget=" + text)
             self.assertIn(why, message, text)
             self.assertIn("such as 2ms", message)
+
+    def test_a_budget_of_work_is_a_whole_number_of_units(self):
+        for text in ("0units", "-3units", "1.5units", "units", "9999999999999units"):
+            message = self.refused(USAGE, "run", "tower", "--budget=" + text)
+            self.assertIn("such as 100000units", message, text)
 
     def test_numbers_out_of_range_are_explained(self):
         for option, text, allowed in (("--frames", "0", "from 1"), ("--frames", "ten", "from 1"),
@@ -193,6 +222,23 @@ class OutputTest(CairnTest):
 
 
 class RunTest(CairnTest):
+    def test_a_budget_of_work_gives_the_same_frames_on_every_run(self):
+        command = ("run", "pyramid", "--size", "8", "--frames", "30", "--samples", "0", "--solver",
+                   "cairn,bullet-si", "--budget", "5000units")
+        runs = [self.run_json(*command) for _ in range(2)]
+        self.assertIn("budget 5000 units a frame", self.fine(*command))
+        self.assertIsNone(runs[0]["budget_ms"])
+        self.assertEqual(runs[0]["budget_units"], 5000)
+        cairn_s, bullet_s = (solver for solver in runs[0]["scenes"][0]["solvers"])
+        self.assertEqual((cairn_s["effort"], bullet_s["effort"]), ("5000 units", "10 iterations"))
+        # a frame has 432 rows, and Bullet's iterations are not what ends it
+        self.assertNotEqual(set(cairn_s["frames"]["iterations"]), {10})
+        for frames in ("iterations", "residual_m_s", "steps_accepted"):
+            values = [[solver["frames"][frames] for solver in run["scenes"][0]["solvers"]]
+                      for run in runs]
+            self.assertEqual(values[0], values[1], frames)
+        self.assertIn("budget of time", self.refused(USAGE, *command, "--iterations", "fit"))
+
     def test_each_kind_of_file_is_written_and_can_be_read(self):
         out = self.fine(*SMALL, "--solver", "bullet-si,cairn", "--budget", "2ms",
                         *(word for kind in ("json", "csv", "markdown", "report")
