@@ -42,7 +42,7 @@ if(TARGET cairn_bullet_float64)
   cairn_install_library(cairn_bullet_float64 BulletFloat64)
   cairn_install_pkg_config(cairn-bullet-float64)
 endif()
-if(CAIRN_BULLET)
+if(CAIRN_BULLET_PRECISIONS)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/bullet_adapter/include/
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()

@@ -1,4 +1,4 @@
-# Finds Bullet Physics in both precisions:
+# Finds Bullet Physics in both precisions, or in those that COMPONENTS names (float, float64):
 #
 #   cairn::bullet3          btScalar = float
 #   cairn::bullet3-float64  btScalar = double (carries BT_USE_DOUBLE_PRECISION)
@@ -11,7 +11,7 @@
 # one it is (CAIRN_BULLET_PRECISION), and CMake refuses a target that links both.
 include(FindPackageHandleStandardArgs)
 
-# Found means one precision at least; ask for the targets to know which.
+# Found means one precision at least, or the only one that was asked for; ask for the targets to know which.
 find_path(CAIRN_BULLET_INCLUDE_DIR NAMES btBulletDynamicsCommon.h
           HINTS ${Bullet_ROOT} $ENV{Bullet_ROOT} PATH_SUFFIXES include/bullet bullet)
 
@@ -41,8 +41,12 @@ function(_cairn_find_bullet target suffix precision definition)
 endfunction()
 
 set(CairnBullet_LIBRARIES)
-_cairn_find_bullet(bullet3 "" float "")
-_cairn_find_bullet(bullet3-float64 "-float64" float64 BT_USE_DOUBLE_PRECISION)
+if(NOT CairnBullet_FIND_COMPONENTS OR float IN_LIST CairnBullet_FIND_COMPONENTS)
+  _cairn_find_bullet(bullet3 "" float "")
+endif()
+if(NOT CairnBullet_FIND_COMPONENTS OR float64 IN_LIST CairnBullet_FIND_COMPONENTS)
+  _cairn_find_bullet(bullet3-float64 "-float64" float64 BT_USE_DOUBLE_PRECISION)
+endif()
 
 if(CAIRN_BULLET_INCLUDE_DIR AND EXISTS ${CAIRN_BULLET_INCLUDE_DIR}/LinearMath/btScalar.h)
   file(STRINGS ${CAIRN_BULLET_INCLUDE_DIR}/LinearMath/btScalar.h _cairn_bullet_line
