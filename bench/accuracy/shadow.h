@@ -5,10 +5,10 @@
 #include <cairn/bullet/constraint_solver.h>
 
 #include <array>
-#include <unordered_map>
 
 #include "accuracy/thread_stopwatch.h"
 #include "cairn/settings.h"
+#include "measure/joint_impulses.h"
 #include "measure/substep.h"
 
 namespace cairn::accuracy {
@@ -48,12 +48,10 @@ class Shadow {
   ShadowFrame Solve(const bench::Substep& substep, const btContactSolverInfo& info, double budget);
 
  private:
-  void StartJoints(const bench::Substep& substep) const;
-  void KeepJoints(const bench::Substep& substep);
   ShadowFrame Describe() const;
 
   bullet::ConstraintSolver solver_;
-  std::unordered_map<const btTypedConstraint*, btScalar> joint_impulses_;  ///< that it left
+  bench::JointImpulses joints_;
 };
 
 }  // namespace cairn::accuracy
