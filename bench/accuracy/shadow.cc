@@ -44,9 +44,9 @@ ShadowFrame Shadow::Solve(const bench::Substep& substep, const btContactSolverIn
       Budget::Time(std::chrono::nanoseconds(std::llround(std::max(0.0, budget) * 1e6)));
   substep.Restore();
   joints_.Put(substep);
-  const ThreadStopwatch stopwatch;
+  const cli::ThreadStopwatch stopwatch;
   substep.SolveWith(&solver_, info, nullptr);
-  const ThreadTime time = stopwatch.Read();
+  const cli::ThreadTime time = stopwatch.Read();
   joints_.Keep(substep);
   ShadowFrame frame = Describe();
   frame.budget = budget;

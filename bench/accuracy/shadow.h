@@ -6,8 +6,8 @@
 
 #include <array>
 
-#include "accuracy/thread_stopwatch.h"
 #include "cairn/settings.h"
+#include "contestants/thread_stopwatch.h"
 #include "measure/joint_impulses.h"
 #include "measure/substep.h"
 
@@ -25,7 +25,7 @@ Settings SettingsOf(Kind kind);
 /// What a shadow did with a substep.
 struct ShadowFrame {
   double budget = 0;                         ///< [ms]
-  ThreadTime time;                           ///< From prepareSolve() to the end of allSolved().
+  cli::ThreadTime time;                      ///< From prepareSolve() to the end of allSolved().
   double build = 0, solve = 0, write = 0;    ///< SubstepTimes [ms].
   double step_predicted = 0, step_time = 0;  ///< As reported [ms].
   double residual_max = 0;                   ///< As reported [m/s].

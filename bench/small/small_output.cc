@@ -92,7 +92,8 @@ std::string SmallReadingHelp(const SmallOptions& options, const RunContext& cont
       "before each step. error: largest velocity error of a body against a converged reference, "
       "all\n"
       "given the same states, Bullet's median and shares of it; '-': Bullet's is below {:g} m/s.\n"
-      "points: of contact; they and times are medians of {} frames.\n"
+      "points: of contact; they and times are medians of {} frames, times of those in which\n"
+      "the thread kept its core.\n"
       "Compared with {}.\nMachine: {}, {}.\nRun: {} frames, the first {} of which do not count;\n"
       "{}; {} instructions{}.\n",
       kLeastError, options.frames - options.warmup, DescribeBullet(context.build),

@@ -3,9 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "contestants/lane.h"
+#include "contestants/thread_stopwatch.h"
 #include "replay/sample_plan.h"
 #include "scenes/facts.h"
 #include "small/same_states.h"
@@ -33,7 +37,9 @@ class Lanes {
       // in turn, so that none always follows the same other one
       Lane& lane = *lanes_[(k + static_cast<size_t>(frame)) % lanes_.size()];
       if (caches != nullptr) caches->Empty();
+      const ThreadStopwatch stopwatch;
       lane.Step(Lane::Observing::kOff);
+      preempted_[&lane].push_back(stopwatch.Read().preempted);
     }
   }
 
@@ -41,6 +47,7 @@ class Lanes {
 
   /// Median time of the frames that count [us]. Once for each solver.
   double Finish(size_t solver, int warmup, std::optional<SolverFailure>* failure) {
+    const std::vector<bool>& preempted = preempted_[lanes_[solver].get()];
     const SolverResult result = lanes_[solver]->Finish();
     if (result.failure) {
       if (!*failure) *failure = result.failure;
@@ -50,11 +57,12 @@ class Lanes {
     for (size_t i = static_cast<size_t>(warmup); i < result.frames.size(); ++i) {
       times.push_back(1e3 * result.frames[i].time);
     }
-    return Median(times);
+    return Median(Undisturbed(times, {preempted.begin() + warmup, preempted.end()}));
   }
 
  private:
   std::vector<std::unique_ptr<Lane>> lanes_;
+  std::map<const Lane*, std::vector<bool>> preempted_;  ///< In each frame.
 };
 
 class SmallRun {
