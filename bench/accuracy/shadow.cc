@@ -43,35 +43,15 @@ ShadowFrame Shadow::Solve(const bench::Substep& substep, const btContactSolverIn
   solver_.settings().budget =
       Budget::Time(std::chrono::nanoseconds(std::llround(std::max(0.0, budget) * 1e6)));
   substep.Restore();
-  StartJoints(substep);
-  const ThreadStopwatch stopwatch;
+  joints_.Put(substep);
+  const cli::ThreadStopwatch stopwatch;
   substep.SolveWith(&solver_, info, nullptr);
-  const ThreadTime time = stopwatch.Read();
-  KeepJoints(substep);
+  const cli::ThreadTime time = stopwatch.Read();
+  joints_.Keep(substep);
   ShadowFrame frame = Describe();
   frame.budget = budget;
   frame.time = time;
   return frame;
-}
-
-// The adapter knows the impulses of a joint again by the one that it left in the joint, which the
-// other solver has overwritten. Bullet itself starts joints from zero.
-void Shadow::StartJoints(const bench::Substep& substep) const {
-  for (const bench::Substep::Group& group : substep.groups()) {
-    for (btTypedConstraint* joint : group.joints) {
-      const auto left = joint_impulses_.find(joint);
-      if (left != joint_impulses_.end()) joint->internalSetAppliedImpulse(left->second);
-    }
-  }
-}
-
-void Shadow::KeepJoints(const bench::Substep& substep) {
-  joint_impulses_.clear();
-  for (const bench::Substep::Group& group : substep.groups()) {
-    for (btTypedConstraint* joint : group.joints) {
-      joint_impulses_[joint] = joint->internalGetAppliedImpulse();
-    }
-  }
 }
 
 ShadowFrame Shadow::Describe() const {

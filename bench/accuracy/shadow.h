@@ -5,10 +5,10 @@
 #include <cairn/bullet/constraint_solver.h>
 
 #include <array>
-#include <unordered_map>
 
-#include "accuracy/thread_stopwatch.h"
 #include "cairn/settings.h"
+#include "contestants/thread_stopwatch.h"
+#include "measure/joint_impulses.h"
 #include "measure/substep.h"
 
 namespace cairn::accuracy {
@@ -25,7 +25,7 @@ Settings SettingsOf(Kind kind);
 /// What a shadow did with a substep.
 struct ShadowFrame {
   double budget = 0;                         ///< [ms]
-  ThreadTime time;                           ///< From prepareSolve() to the end of allSolved().
+  cli::ThreadTime time;                      ///< From prepareSolve() to the end of allSolved().
   double build = 0, solve = 0, write = 0;    ///< SubstepTimes [ms].
   double step_predicted = 0, step_time = 0;  ///< As reported [ms].
   double residual_max = 0;                   ///< As reported [m/s].
@@ -48,12 +48,10 @@ class Shadow {
   ShadowFrame Solve(const bench::Substep& substep, const btContactSolverInfo& info, double budget);
 
  private:
-  void StartJoints(const bench::Substep& substep) const;
-  void KeepJoints(const bench::Substep& substep);
   ShadowFrame Describe() const;
 
   bullet::ConstraintSolver solver_;
-  std::unordered_map<const btTypedConstraint*, btScalar> joint_impulses_;  ///< that it left
+  bench::JointImpulses joints_;
 };
 
 }  // namespace cairn::accuracy

@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "accuracy/state_run.h"
 #include "replay/sample_plan.h"
+#include "run/state_run.h"
 #include "support/statistics.h"
 
 namespace cairn::accuracy {
@@ -182,7 +182,7 @@ class Walk {
   }
 
   cli::SamplePlan plan_;
-  StateRun run_;
+  cli::StateRun run_;
   StateMeter meter_;
   bool due_ = false;  ///< A sample is.
   int tries_ = 0;

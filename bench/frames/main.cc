@@ -11,6 +11,7 @@
 #include "CLI/CLI.hpp"
 #include "frames/budget.h"
 #include "frames/cost.h"
+#include "frames/parts.h"
 #include "frames/step.h"
 #include "frames/swap.h"
 #include "frames/threads.h"
@@ -72,6 +73,32 @@ void AddBudget(CLI::App* app, BudgetOptions* options) {
   app->add_option("--method", options->method)->transform(CLI::CheckedTransformer(methods));
 }
 
+/// What was typed behind the options of `cairn_frames parts`.
+struct PartsWords {
+  PartsOptions options;
+  std::vector<std::string> scenes = {"castle", "pyramid:100", "ragdolls:136", "islands"};
+  int size = 0;
+  bool no_steps = false;
+};
+
+void AddParts(CLI::App* app, PartsWords* words) {
+  AddScenes(app, &words->scenes);
+  AddFrames(app, &words->options.frame, &words->options.frames);
+  app->add_option("--size", words->size, "Of scenes that are named without one")
+      ->check(CLI::Range(1, 1000000));
+  app->add_flag("--no-steps", words->no_steps, "Sweeps alone");
+}
+
+PartsOptions Check(const PartsWords& words) {
+  PartsOptions options = words.options;
+  options.scenes = ParseScenes(words.scenes);
+  for (SceneChoice& scene : options.scenes) {
+    if (scene.size == 0) scene.size = words.size;
+  }
+  if (words.no_steps) options.steps = Steps::kNone;
+  return options;
+}
+
 int Main(int count, char** arguments) {
   CLI::App app("Budgets, costs and threads of cairn::Solver on frames of the scenes.",
                "cairn_frames");
@@ -112,6 +139,10 @@ int Main(int count, char** arguments) {
   AddScenes(step_app, &step_scenes);
   AddFrames(step_app, &step.frame, &step.frames);
 
+  PartsWords parts;
+  CLI::App* const parts_app = app.add_subcommand("parts", "Where a substep goes");
+  AddParts(parts_app, &parts);
+
   CLI11_PARSE(app, count, arguments);
   const std::string command = CommandOf(count, arguments);
   if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
@@ -124,6 +155,8 @@ int Main(int count, char** arguments) {
   } else if (swap_app->parsed()) {
     swap.scenes = ParseScenes(swap_scenes);
     PrintSwaps(swap, command);
+  } else if (parts_app->parsed()) {
+    PrintParts(Check(parts), command);
   } else if (step_app->parsed()) {
     step.scenes = ParseScenes(step_scenes);
     PrintSteps(step, command);

@@ -8,12 +8,12 @@
 #include <array>
 #include <chrono>
 #include <ctime>
-#include <span>
 #include <utility>
 
 #include "frames/frame_solver.h"
 #include "frames/markdown.h"
 #include "frames/size_series.h"
+#include "frames/span_times.h"
 #include "measure/instrumented_solver.h"
 #include "support/statistics.h"
 
@@ -37,30 +37,11 @@ struct Parts {
   double finish = 0;  ///< from blocks to Bullet's objects
 };
 
-double* PartOf(SpanKind kind, Parts* parts) {
-  switch (kind) {
-    case SpanKind::kRead:
-    case SpanKind::kSetUp:
-      return &parts->set_up;
-    case SpanKind::kResults:
-    case SpanKind::kWrite:
-      return &parts->finish;
-    default:
-      return &parts->sweeps;
-  }
-}
-
-Parts PartsOf(std::span<const Span> spans) {
+Parts PartsOf(const SpanTimes& times) {
   Parts parts;
-  Span::Clock::time_point outer = Span::Clock::time_point::max();
-  // a span comes after those that it contains
-  for (size_t i = spans.size(); i-- > 0;) {
-    const Span& span = spans[i];
-    if (span.begin >= outer) continue;
-    outer = span.begin;
-    *PartOf(span.label.kind, &parts) +=
-        std::chrono::duration<double, std::micro>(span.end - span.begin).count();
-  }
+  parts.set_up = times.of(SpanKind::kRead) + times.of(SpanKind::kSetUp);
+  parts.finish = times.of(SpanKind::kResults) + times.of(SpanKind::kWrite);
+  parts.sweeps = times.together() - parts.set_up - parts.finish;
   return parts;
 }
 
@@ -105,7 +86,7 @@ class Swap {
   static constexpr int kMostSpans = 65536;
 
   void AddParts() {
-    const Parts parts = PartsOf(spans_.spans(0));
+    const Parts parts = PartsOf(SpanTimes(spans_.spans(0)));
     times.set_up.push_back(parts.set_up);
     times.sweeps.push_back(parts.sweeps);
     times.finish.push_back(parts.finish);

@@ -6,18 +6,6 @@
 #include "scenes/facts.h"
 
 namespace cairn::cli {
-namespace {
-
-int ContactPoints(const bench::World& world) {
-  const btDispatcher& dispatcher = *world.bullet()->getDispatcher();
-  int points = 0;
-  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-    points += const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i)->getNumContacts();
-  }
-  return points;
-}
-
-}  // namespace
 
 FrameFacts ReadFrameFacts(const bench::Scene& scene, const bench::World& world) {
   const bench::SceneFacts facts = scene.Measure(world);
@@ -25,7 +13,7 @@ FrameFacts ReadFrameFacts(const bench::Scene& scene, const bench::World& world) 
           .penetration = facts.penetration_m,
           .height_lost = facts.height_lost_m,
           .joint_gap = facts.joint_gap_m,
-          .contacts = ContactPoints(world)};
+          .contacts = bench::ContactPoints(world)};
 }
 
 double MassRatio(const bench::World& world) {

@@ -37,12 +37,6 @@ Json ToJson(const Summary& s) {
           {"factorisations", s.factorisations}};
 }
 
-Json ToJson(const Setup& setup) {
-  return {{"threads", setup.threads},
-          {"simd_asked_for", setup.simd.empty() ? Json(nullptr) : Json(setup.simd)},
-          {"pinned_to_core", Maybe(setup.pinned)}};
-}
-
 Json Facts(const SolverResult& solver) {
   Json facts = Json::array();
   for (const Fact& fact : solver.facts) {

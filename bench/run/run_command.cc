@@ -17,6 +17,7 @@
 #include "run/json_output.h"
 #include "run/run.h"
 #include "run/run_tables.h"
+#include "small/small_command.h"
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
@@ -178,7 +179,9 @@ Command AddRunCommand(CLI::App* app) {
       "Write what each thread did in the slowest frame, for ui.perfetto.dev (JSON)", "FILE");
   add("--trace-frame", &words->trace_frame, "The frame for --trace instead of the slowest", "N");
   AddOutputWords(run, &words->output);
-  return {run, [words](const std::string& typed) { return DoRun(*words, typed); }};
+  return {run,
+          [words](const std::string& typed) { return DoRun(*words, typed); },
+          {AddSmallCommand(run)}};
 }
 
 }  // namespace cairn::cli

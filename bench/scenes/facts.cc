@@ -76,20 +76,32 @@ void HashVector(const btVector3& vector, std::uint64_t* hash) {
   HashBytes(vector.m_floats, 3, hash);
 }
 
+template <class Visit>
+void ForEachManifold(const World& world, Visit visit) {
+  const btDispatcher* dispatcher = world.bullet()->getDispatcher();
+  for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
+    // Const access is missing from Bullet's interface of dispatchers.
+    visit(*const_cast<btDispatcher*>(dispatcher)->getManifoldByIndexInternal(i));
+  }
+}
+
 }  // namespace
 
 double MaxPenetration(const World& world) {
-  const btDispatcher* dispatcher = world.bullet()->getDispatcher();
   double deepest = 0;
-  for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
-    // Const access is missing from Bullet's interface of dispatchers.
-    const btPersistentManifold* manifold =
-        const_cast<btDispatcher*>(dispatcher)->getManifoldByIndexInternal(i);
-    for (int k = 0; k < manifold->getNumContacts(); ++k) {
-      deepest = std::max(deepest, -static_cast<double>(manifold->getContactPoint(k).getDistance()));
+  ForEachManifold(world, [&](const btPersistentManifold& manifold) {
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      deepest = std::max(deepest, -static_cast<double>(manifold.getContactPoint(k).getDistance()));
     }
-  }
+  });
   return deepest;
+}
+
+int ContactPoints(const World& world) {
+  int points = 0;
+  ForEachManifold(
+      world, [&](const btPersistentManifold& manifold) { points += manifold.getNumContacts(); });
+  return points;
 }
 
 double JointGap(const btTypedConstraint& joint) {

@@ -11,6 +11,9 @@ namespace cairn::bench {
 /// collision detection, in Bullet's measure: a convex shape includes its collision margin.
 double MaxPenetration(const World& world);
 
+/// Points of contact of the last step's collision detection, those that still are apart included.
+int ContactPoints(const World& world);
+
 /// Distance between the two anchor points of a joint now [m]: what a perfect solver keeps at 0. NaN
 /// for joints whose anchors may part by design: sliders, gears, and 6-dof joints with a linear axis
 /// that is not locked at 0.

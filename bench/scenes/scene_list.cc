@@ -18,7 +18,18 @@
   SCENE(Chain)                    \
   SCENE(Ragdolls)                 \
   SCENE(Rubble)                   \
-  SCENE(Islands)
+  SCENE(Islands)                  \
+  SCENE(Stairs)                   \
+  SCENE(Car)                      \
+  SCENE(Door)                     \
+  SCENE(Pendulum)                 \
+  SCENE(Seesaw)                   \
+  SCENE(Dominoes)                 \
+  SCENE(Arch)                     \
+  SCENE(Incline)                  \
+  SCENE(GrowingTower)             \
+  SCENE(Slab)                     \
+  SCENE(WreckingBall)
 
 namespace cairn::bench {
 

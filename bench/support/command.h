@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -16,6 +17,7 @@ struct Command {
   /// @param typed  the command line as it can be shown to others
   /// @return exit code. @throws Failure
   std::function<int(const std::string& typed)> action;
+  std::vector<Command> parts = {};  ///< Commands within it, `cairn run small`, say.
 };
 
 /// Adds an option that takes a text; the last of several counts.

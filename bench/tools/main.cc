@@ -26,6 +26,12 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
+/// "cairn run small"
+std::string FullName(const CLI::App& command) {
+  const CLI::App* const parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : FullName(*parent) + " " + command.get_name();
+}
+
 /// CLI11 leaves what it does not know to us, so that the answer can name the nearest option.
 void RefuseUnknown(const CLI::App& command) {
   const Arguments unknown = command.remaining();
@@ -36,11 +42,31 @@ void RefuseUnknown(const CLI::App& command) {
   }
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   if (!word.starts_with("-") || names.empty()) {
-    throw Failure(kUsage, fmt::format("'{}' is not expected here; see 'cairn {} --help'", word,
-                                      command.get_name()));
+    throw Failure(
+        kUsage, fmt::format("'{}' is not expected here; see '{} --help'", word, FullName(command)));
   }
-  throw Failure(kUsage, fmt::format("unknown option '{}': {}'cairn {} --help' shows all", word,
-                                    DidYouMean(word, names), command.get_name()));
+  throw Failure(kUsage, fmt::format("unknown option '{}': {}'{} --help' shows all", word,
+                                    DidYouMean(word, names), FullName(command)));
+}
+
+/// The command that was asked for: itself, or the one of its parts.
+const Command& AskedFor(const Command& command) {
+  for (const Command& part : command.parts) {
+    if (!part.app->parsed()) continue;
+    for (const CLI::Option* option : command.app->get_options()) {
+      if (option->count() == 0) continue;
+      throw Failure(kUsage, fmt::format("'{}' stands alone: its options come after it, see "
+                                        "'{} --help'",
+                                        FullName(*part.app), FullName(*part.app)));
+    }
+    return AskedFor(part);
+  }
+  return command;
+}
+
+void AllowExtras(const Command& command) {
+  command.app->allow_extras();
+  for (const Command& part : command.parts) AllowExtras(part);
 }
 
 int RefuseSyntax(const CLI::App& app, const CLI::ParseError& error) {
@@ -114,7 +140,7 @@ int Main(Arguments arguments) {
       AddRecordCommand(&app), AddSolveCommand(&app), AddWorldsCommand(&app)};
   Arguments names;
   for (const Command& command : commands) {
-    command.app->allow_extras();
+    AllowExtras(command);
     names.push_back(command.app->get_name());
   }
   CompleteCommand(names, &arguments);
@@ -125,8 +151,10 @@ int Main(Arguments arguments) {
   }
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
+    const Command& asked = AskedFor(command);
     RefuseUnknown(*command.app);
-    return command.action(WithoutPaths("cairn", typed));
+    RefuseUnknown(*asked.app);
+    return asked.action(WithoutPaths("cairn", typed));
   }
   return kUsage;
 }

@@ -14,6 +14,7 @@
 #include "simd/target.h"
 #include "support/command_line.h"
 #include "support/failure.h"
+#include "support/json_number.h"
 
 namespace cairn::cli {
 namespace {
@@ -81,6 +82,13 @@ std::string Describe(const Setup& setup) {
   return fmt::format("{} thread{} for Cairn, {}", setup.threads, setup.threads == 1 ? "" : "s",
                      setup.pinned ? fmt::format("pinned to core {}", *setup.pinned)
                                   : std::string("not pinned to a core"));
+}
+
+nlohmann::ordered_json ToJson(const Setup& setup) {
+  return {{"threads", setup.threads},
+          {"simd_asked_for", setup.simd.empty() ? nlohmann::ordered_json(nullptr)
+                                                : nlohmann::ordered_json(setup.simd)},
+          {"pinned_to_core", Maybe(setup.pinned)}};
 }
 
 }  // namespace cairn::cli

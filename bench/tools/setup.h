@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -22,5 +23,7 @@ void Apply(const Setup& setup);
 
 /// "1 thread, avx2 asked for, pinned to core 0"
 std::string Describe(const Setup& setup);
+
+nlohmann::ordered_json ToJson(const Setup& setup);
 
 }  // namespace cairn::cli

@@ -6,10 +6,6 @@
 namespace cairn::bench {
 namespace {
 
-btTransform FrameAlong(const btVector3& origin, const btVector3& axis, const btVector3& to) {
-  return btTransform(shortestArcQuat(axis, to.normalized()), origin);
-}
-
 template <class SixDof>
 std::unique_ptr<SixDof> MakeSixDof(btRigidBody* a, btRigidBody* b, const btTransform& frame);
 
@@ -44,18 +40,6 @@ Hold DrawHold(Draft* draft) {
   constexpr Hold kHolds[] = {Hold::kPin,   Hold::kPin,  Hold::kPin,    Hold::kTwoPins,
                              Hold::kHinge, Hold::kCone, Hold::kSixDof, Hold::kSpring2};
   return kHolds[draft->Choose(8)];
-}
-
-btTransform Local(const btRigidBody& body, const btTransform& frame) {
-  return body.getCenterOfMassTransform().inverse() * frame;
-}
-
-btTransform FrameAlongX(const btVector3& origin, const btVector3& x) {
-  return FrameAlong(origin, btVector3(1, 0, 0), x);
-}
-
-btTransform FrameAlongZ(const btVector3& origin, const btVector3& z) {
-  return FrameAlong(origin, btVector3(0, 0, 1), z);
 }
 
 btPoint2PointConstraint* Pin(Draft* draft, btRigidBody* a, btRigidBody* b, const btVector3& point) {

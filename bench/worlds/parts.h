@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "scenes/joint_frames.h"
 #include "worlds/draft.h"
 
 namespace cairn::bench {
@@ -13,13 +14,6 @@ enum class Hold { kPin, kTwoPins, kHinge, kCone, kSixDof, kSpring2, kFixed };
 
 /// Any of them, those of ropes and chains more often.
 Hold DrawHold(Draft* draft);
-
-/// A frame in a body's own coordinates.
-btTransform Local(const btRigidBody& body, const btTransform& frame);
-
-/// A frame at `origin` whose x axis points along `x`, or z along `z`.
-btTransform FrameAlongX(const btVector3& origin, const btVector3& x);
-btTransform FrameAlongZ(const btVector3& origin, const btVector3& z);
 
 /// A ball joint.
 btPoint2PointConstraint* Pin(Draft* draft, btRigidBody* a, btRigidBody* b, const btVector3& point);

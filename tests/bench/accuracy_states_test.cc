@@ -12,12 +12,12 @@
 #include "accuracy/bullet_trial.h"
 #include "accuracy/frame_statistics.h"
 #include "accuracy/shadow.h"
-#include "accuracy/state_run.h"
 #include "accuracy/states.h"
 #include "measure/converged.h"
 #include "measure/reference.h"
 #include "measure/velocity_norm.h"
 #include "run/scene_choice.h"
+#include "run/state_run.h"
 
 namespace cairn::accuracy {
 namespace {
@@ -32,7 +32,7 @@ class OneState : public testing::TestWithParam<const char*> {
  protected:
   template <class Look>
   void WithState(Look look) {
-    StateRun run(Scene(GetParam(), 5), 50);
+    cli::StateRun run(Scene(GetParam(), 5), 50);
     for (int i = 0; i < 10; ++i) run.Step();
     bool looked = false;
     run.StepAfter([&](bench::Substep* substep, const btContactSolverInfo& info) {
@@ -143,7 +143,7 @@ double ErrorOfFewSweeps(int frames_seen) {
   Settings settings = SettingsOf(Kind::kSweeps);
   settings.max_sweeps = kSweeps;
   Shadow shadow(settings);
-  StateRun run(Scene("chain", 5), 50);
+  cli::StateRun run(Scene("chain", 5), 50);
   double error = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     run.StepAfter([&](bench::Substep* substep, const btContactSolverInfo& info) {
@@ -164,7 +164,7 @@ TEST(Shadow, StartsJointsFromItsOwnImpulsesOfTheFrameBefore) {
 }
 
 TEST(Shadow, LeavesContactsAndJointsToBeRestored) {
-  StateRun run(Scene("tower", 5), 50);
+  cli::StateRun run(Scene("tower", 5), 50);
   Shadow shadow(SettingsOf(Kind::kSteps));
   for (int frame = 0; frame < 5; ++frame) {
     run.StepAfter([&](bench::Substep* substep, const btContactSolverInfo& info) {

@@ -85,7 +85,11 @@ TEST_P(EveryScene, HasLostNothingWhenItIsBuilt) {
   const Stage stage(GetParam());
   const SceneFacts facts = stage.scene->Measure(stage.world);
   EXPECT_NE(facts.verdict, SceneFacts::Verdict::kFallen);
-  EXPECT_EQ(std::isnan(facts.joint_gap_m), stage.world.joints().empty());
+  // Anchors of springs may part.
+  const bool any_gap = std::ranges::any_of(
+      stage.world.joints(),
+      [](const btTypedConstraint* joint) { return !std::isnan(JointGap(*joint)); });
+  EXPECT_EQ(std::isnan(facts.joint_gap_m), !any_gap);
   if (!std::isnan(facts.joint_gap_m)) {
     EXPECT_LT(facts.joint_gap_m, kIsFloat ? 1e-5 : 1e-13);
   }
@@ -174,11 +178,28 @@ TEST(Scenes, HaveTheSizesTheyAreKnownFor) {
   EXPECT_EQ(FindScene("ragdolls")->known_facts(20).joints, 200);
   EXPECT_EQ(bodies("rubble", 600), 600);
   EXPECT_EQ(bodies("islands", 300), 1500);
+  EXPECT_EQ(bodies("stairs", 1), 11);
+  EXPECT_EQ(FindScene("stairs")->known_facts(1).mass_kg, 72);
+  EXPECT_EQ(bodies("car", 1), 5);
+  EXPECT_EQ(FindScene("car")->known_facts(1).mass_kg, 880);
+  EXPECT_EQ(bodies("door", 1), 2);
+  EXPECT_EQ(FindScene("pendulum")->known_facts(5).joints, 5);
+  EXPECT_EQ(bodies("seesaw", 1), 3);
+  EXPECT_EQ(bodies("dominoes", 100), 100);
+  EXPECT_EQ(bodies("arch", 11), 11);
+  EXPECT_EQ(bodies("incline", 1), 1);
+  // 1 + 2 + 4 + ... + 64.
+  EXPECT_NEAR(FindScene("growing-tower")->known_facts(7).mass_kg, 127, 1e-12);
+  EXPECT_EQ(bodies("slab", 6), 37);
+  EXPECT_EQ(FindScene("slab")->known_facts(6).mass_kg, 680);
+  // Three courses of 5 bricks and three of 6, 6 links and the ball.
+  EXPECT_EQ(bodies("wrecking-ball", 6), 33 + 7);
+  EXPECT_EQ(FindScene("wrecking-ball")->known_facts(6).joints, 7);
 }
 
 TEST(Scenes, AreFoundByNameOnly) {
   const std::vector<std::string> names = SceneNames();
-  EXPECT_EQ(names.size(), 12u);
+  EXPECT_EQ(names.size(), 23u);
   EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
   for (const SceneInfo& info : Scenes()) EXPECT_EQ(FindScene(info.name), &info);
   EXPECT_EQ(FindScene("sandcastle"), nullptr);
@@ -257,6 +278,103 @@ TEST(TwoPinBridge, IsHeldTogetherByBullet) {
     }
     EXPECT_LT(fastest, 25);
   }
+}
+
+btVector3 PositionOf(const Stage& stage, size_t body) {
+  return stage.world.dynamic_bodies()[body]->getCenterOfMassPosition();
+}
+
+// The landing is 1.6 m up.
+TEST(Stairs, AreTumbledDown) {
+  Stage stage("stairs");
+  stage.Run(240);
+  EXPECT_LT(TopHeight(stage.world), 1.2);
+  EXPECT_GT(PositionOf(stage, 0).x(), 1);
+}
+
+// 12 rad/s on wheels of 0.35 m are 4.2 m/s, less what bumps and the start take.
+TEST(Car, DrivesOverItsBumpsOnFourWheels) {
+  Stage stage("car");
+  stage.Run(300);
+  EXPECT_GT(PositionOf(stage, 0).x(), 10);
+  EXPECT_LT(PositionOf(stage, 0).x(), 21);
+  EXPECT_NEAR(PositionOf(stage, 0).z(), 0, 0.5);
+  for (size_t wheel = 1; wheel <= 4; ++wheel) {
+    EXPECT_NEAR(PositionOf(stage, wheel).y(), 0.35, 0.2) << wheel;
+  }
+}
+
+TEST(Door, OpensWithinItsLimitsPushesACrateAndCloses) {
+  Stage stage("door");
+  const btVector3 crate = PositionOf(stage, 1);
+  double widest = 0;
+  auto& hinge = static_cast<btHingeConstraint&>(*stage.world.joints().front());
+  for (int frame = 0; frame < 180; ++frame) {
+    stage.Run(1);
+    const double angle = hinge.getHingeAngle();
+    widest = std::max(widest, angle);
+    EXPECT_GT(angle, -0.05) << frame;
+  }
+  EXPECT_GT(widest, 1.2);
+  EXPECT_LT(widest, 1.5);
+  EXPECT_NEAR(hinge.getHingeAngle(), 0, 0.1);
+  EXPECT_GT((PositionOf(stage, 1) - crate).length(), 0.1);
+}
+
+// 100 kg m on the right, 50 on the left.
+TEST(Seesaw, TiltsToTheGroundUnderItsCrates) {
+  Stage stage("seesaw");
+  stage.Run(240);
+  const btVector3 right = stage.world.dynamic_bodies()[0]->getWorldTransform() * btVector3(2, 0, 0);
+  EXPECT_NEAR(right.y(), 0.05, 0.03);
+  EXPECT_LT(LargestSpeed(stage.world), 0.1);
+}
+
+TEST(Dominoes, AllFall) {
+  Stage stage("dominoes", {.size = 20});
+  stage.Run(300);
+  for (size_t i = 0; i < 20; ++i) EXPECT_LT(PositionOf(stage, i).y(), 0.25) << i;
+}
+
+TEST(Incline, HoldsItsBoxesByFriction) {
+  Stage stage("incline", {.size = 3});
+  stage.Run(240);
+  EXPECT_EQ(stage.scene->Measure(stage.world).verdict, SceneFacts::Verdict::kStanding);
+  EXPECT_LT(stage.scene->Measure(stage.world).height_lost_m, 0.02);
+}
+
+// A half ring stands if it is thicker than 0.1075 of its mean radius (Heyman 1969): 0.26 here.
+TEST(Arch, StandsWithManySweeps) {
+  Stage stage("arch");
+  stage.world.solver_info().m_numIterations = 200;
+  stage.Run(240);
+  const SceneFacts facts = stage.scene->Measure(stage.world);
+  EXPECT_EQ(facts.verdict, SceneFacts::Verdict::kStanding);
+  EXPECT_LT(facts.height_lost_m, 0.05);
+}
+
+TEST(GrowingTower, FallsWithFewSweepsAndStandsWithMany) {
+  Stage few("growing-tower"), many("growing-tower");
+  many.world.solver_info().m_numIterations = 400;
+  few.Run(240);
+  many.Run(240);
+  EXPECT_EQ(many.scene->Measure(many.world).verdict, SceneFacts::Verdict::kStanding);
+  EXPECT_GT(few.scene->Measure(few.world).height_lost_m,
+            10 * many.scene->Measure(many.world).height_lost_m);
+}
+
+TEST(Slab, StandsOnItsColumns) {
+  Stage stage("slab");
+  stage.Run(240);
+  EXPECT_EQ(stage.scene->Measure(stage.world).verdict, SceneFacts::Verdict::kStanding);
+}
+
+TEST(WreckingBall, KnocksBricksOutOfTheWall) {
+  Stage stage("wrecking-ball");
+  stage.Run(30);
+  const btVector3 brick = PositionOf(stage, 13);
+  stage.Run(210);
+  EXPECT_GT((PositionOf(stage, 13) - brick).length(), 0.3);
 }
 
 class Facts : public testing::Test {

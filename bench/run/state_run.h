@@ -10,13 +10,13 @@
 #include "scenes/scene.h"
 #include "scenes/world.h"
 
-namespace cairn::accuracy {
+namespace cairn::cli {
 
 /// A scene under Bullet's stock solver, whose states others are given.
 class StateRun {
  public:
   /// @param iterations  of the solver that makes the states
-  StateRun(const cli::SceneChoice& choice, int iterations);
+  StateRun(const SceneChoice& choice, int iterations);
 
   /// Makes a step.
   void Step();
@@ -35,4 +35,4 @@ class StateRun {
   int frame_ = 0;
 };
 
-}  // namespace cairn::accuracy
+}  // namespace cairn::cli

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-namespace cairn::accuracy {
+#include <span>
+#include <vector>
+
+namespace cairn::cli {
 
 /// What something took the thread that did it.
 struct ThreadTime {
@@ -22,4 +25,9 @@ class ThreadStopwatch {
   ThreadTime start_ = Now();
 };
 
-}  // namespace cairn::accuracy
+/// Those of the values in whose time the thread kept its core; all, if that is fewer than a
+/// quarter.
+/// @pre one flag for each value
+std::vector<double> Undisturbed(std::span<const double> values, const std::vector<bool>& preempted);
+
+}  // namespace cairn::cli

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/state_run.h"
+#include "run/state_run.h"
 
 #include <limits>
 #include <utility>
 
-namespace cairn::accuracy {
+namespace cairn::cli {
 
-StateRun::StateRun(const cli::SceneChoice& choice, int iterations)
-    : scene_(bench::Make(*choice.info)) {
+StateRun::StateRun(const SceneChoice& choice, int iterations) : scene_(bench::Make(*choice.info)) {
   scene_->Build(&world_, {.size = choice.size, .seed = choice.seed});
   world_.solver_info().m_numIterations = iterations;
   // islands would be solved in several groups, where the adapter makes one problem of all
@@ -32,4 +31,4 @@ void StateRun::StepAfter(bench::InstrumentedSolver::Probe probe) {
   Step();
 }
 
-}  // namespace cairn::accuracy
+}  // namespace cairn::cli

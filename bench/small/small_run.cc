@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "small/small_run.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "contestants/lane.h"
+#include "contestants/thread_stopwatch.h"
+#include "replay/sample_plan.h"
+#include "scenes/facts.h"
+#include "small/same_states.h"
+#include "support/cold_caches.h"
+#include "support/progress.h"
+#include "support/statistics.h"
+
+namespace cairn::cli {
+namespace {
+
+/// A world for each solver.
+class Lanes {
+ public:
+  explicit Lanes(const SceneChoice& scene, const Setup& setup) {
+    const RunOptions plain;
+    for (SolverChoice solver : SmallSolvers()) {
+      solver.threads = setup.threads;
+      lanes_.push_back(std::make_unique<Lane>(scene, solver, plain));
+    }
+  }
+
+  /// @param caches  emptied before each step, unless there are none
+  void Step(int frame, ColdCaches* caches) {
+    for (size_t k = 0; k < lanes_.size(); ++k) {
+      // in turn, so that none always follows the same other one
+      Lane& lane = *lanes_[(k + static_cast<size_t>(frame)) % lanes_.size()];
+      if (caches != nullptr) caches->Empty();
+      const ThreadStopwatch stopwatch;
+      lane.Step(Lane::Observing::kOff);
+      preempted_[&lane].push_back(stopwatch.Read().preempted);
+    }
+  }
+
+  const bench::World& world() const { return lanes_.front()->world(); }
+
+  /// Median time of the frames that count [us]. Once for each solver.
+  double Finish(size_t solver, int warmup, std::optional<SolverFailure>* failure) {
+    const std::vector<bool>& preempted = preempted_[lanes_[solver].get()];
+    const SolverResult result = lanes_[solver]->Finish();
+    if (result.failure) {
+      if (!*failure) *failure = result.failure;
+      return kNotMeasured;
+    }
+    std::vector<double> times;
+    for (size_t i = static_cast<size_t>(warmup); i < result.frames.size(); ++i) {
+      times.push_back(1e3 * result.frames[i].time);
+    }
+    return Median(Undisturbed(times, {preempted.begin() + warmup, preempted.end()}));
+  }
+
+ private:
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::map<const Lane*, std::vector<bool>> preempted_;  ///< In each frame.
+};
+
+class SmallRun {
+ public:
+  SmallRun(const SmallOptions& options, Progress* progress)
+      : options_(options), progress_(progress) {}
+
+  SmallResult Run(const SceneChoice& scene) {
+    SmallResult result;
+    result.name = scene.info->name;
+    result.size = scene.size;
+    result.solvers.resize(SmallSolvers().size());
+    Time(scene, nullptr, &SmallSolver::hot, &result);
+    Time(scene, &caches_, &SmallSolver::cold, &result);
+    MeasureErrors(scene, &result);
+    return result;
+  }
+
+ private:
+  void Time(const SceneChoice& scene, ColdCaches* caches, double SmallSolver::*time,
+            SmallResult* result) {
+    Lanes lanes(scene, options_.setup);
+    result->bodies = static_cast<int>(lanes.world().dynamic_bodies().size());
+    result->joints = static_cast<int>(lanes.world().joints().size());
+    std::vector<double> points;
+    for (int frame = 0; frame < options_.frames; ++frame) {
+      Show(scene, caches == nullptr ? "hot" : "cold", frame);
+      lanes.Step(frame, caches);
+      if (frame >= options_.warmup) points.push_back(bench::ContactPoints(lanes.world()));
+    }
+    result->points = Median(points);
+    for (size_t i = 0; i < result->solvers.size(); ++i) {
+      SmallSolver& solver = result->solvers[i];
+      solver.*time = lanes.Finish(i, options_.warmup, &solver.failure);
+    }
+  }
+
+  void MeasureErrors(const SceneChoice& scene, SmallResult* result) {
+    const SamplePlan plan(options_.samples, options_.warmup, options_.frames);
+    if (plan.samples() == 0) return;
+    SameStates states(scene, options_.setup);
+    for (int frame = 0; frame < options_.frames; ++frame) {
+      Show(scene, "errors", frame);
+      plan.IsSample(frame) ? states.Measure(result) : states.Step();
+    }
+  }
+
+  void Show(const SceneChoice& scene, const char* what, int frame) {
+    progress_->Show(
+        fmt::format("{}, {}: frame {} of {}", scene.info->name, what, frame, options_.frames));
+  }
+
+  const SmallOptions& options_;
+  Progress* progress_;
+  ColdCaches caches_;
+};
+
+}  // namespace
+
+std::vector<SmallResult> RunSmall(const SmallOptions& options) {
+  Progress progress(options.progress);
+  SmallRun run(options, &progress);
+  std::vector<SmallResult> results;
+  for (const SceneChoice& scene : options.worlds) results.push_back(run.Run(scene));
+  return results;
+}
+
+}  // namespace cairn::cli

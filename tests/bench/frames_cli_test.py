@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: MIT
+"""cairn_frames parts as its users meet it: python3 frames_cli_test.py PATH_OF_CAIRN_FRAMES"""
+import os
+import subprocess
+import sys
+import unittest
+
+TOOL = ""
+PARTS = ["build: bodies", "build: joints", "build: contacts", "plan", "pack", "sweeps", "measuring", "steps", "results",
+         "write", "other"]
+
+
+def frames(*arguments):
+    return subprocess.run([TOOL, *arguments], capture_output=True, text=True, timeout=300)
+
+
+class PartsTest(unittest.TestCase):
+    def table(self, *arguments):
+        """Cells by the name of their line, and the names of the columns."""
+        result = frames("parts", "--frame", "4", "--frames", "3", *arguments)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertEqual(result.stderr, "")
+        lines = [[cell.strip() for cell in line.strip("|").split("|")]
+                 for line in result.stdout.splitlines() if line.startswith("|")]
+        return {line[0]: line[1:] for line in lines[2:]}, lines[0]
+
+    def test_says_where_a_substep_goes_hot_and_cold(self):
+        cells, columns = self.table("--scene", "ragdolls", "--size", "2")
+        self.assertEqual(columns, ["part", "ragdolls 2 hot us", "share", "ragdolls 2 cold us", "share"])
+        self.assertEqual(list(cells), PARTS + ["together", "without clocks"])
+        for share in (1, 3):
+            # Each is rounded by half a percent.
+            self.assertAlmostEqual(sum(int(cells[part][share].rstrip(" %")) for part in PARTS), 100, delta=6)
+        for part in ("build: bodies", "pack", "sweeps", "write", "together", "without clocks"):
+            self.assertGreater(float(cells[part][0]), 0, part)
+
+    def test_what_a_world_does_not_have_takes_nothing(self):
+        cells, _ = self.table("--scene", "tower:3", "--no-steps")
+        self.assertEqual(cells["steps"][:2], ["0.0", "0 %"])
+        self.assertGreater(float(cells["build: contacts"][0]), 0)
+
+    def test_scenes_stand_side_by_side(self):
+        _, columns = self.table("--scene", "incline", "--scene", "tower:3")
+        self.assertEqual(columns[1::2], ["incline hot us", "incline cold us", "tower 3 hot us", "tower 3 cold us"])
+
+    def test_what_cannot_be_is_refused(self):
+        for words in (["--scene", "sandcastle"], ["--scene", "tower:1000000"], ["--scene", "tower", "--size", "1000"],
+                      ["--size", "0"], ["--frames", "0"], ["--no-such-option"]):
+            result = frames("parts", *words)
+            self.assertNotEqual(result.returncode, 0, words)
+            self.assertNotEqual(result.stderr, "", words)
+
+
+if __name__ == "__main__":
+    TOOL = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
