@@ -248,15 +248,15 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
     btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds, int num_manifolds,
     btTypedConstraint** constraints, int num_constraints, const btContactSolverInfo& info,
     btIDebugDraw* debug_drawer) {
+  const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
+                       &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
+                       &m_tmpSolverContactRollingFrictionConstraintPool};
+  impl_->rows.Read(pools, info, LimitsOf(impl_->settings));
   if (m_tmpSolverBodyPool.size() == 0) {
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
     return 0;
   }
-  const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
-                       &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
-                       &m_tmpSolverContactRollingFrictionConstraintPool};
-  impl_->rows.Read(pools, info, LimitsOf(impl_->settings));
 
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;

@@ -90,6 +90,21 @@ TEST(Features, AnEmptyWorldIsNoError) {
   EXPECT_TRUE(solver.report().ok());
 }
 
+TEST(Features, ASubstepWithoutBodiesHasAProblemWithoutRows) {
+  for (bullet::Mode mode : {bullet::Mode::kFast, bullet::Mode::kReference}) {
+    bullet::ConstraintSolver solver({}, {.mode = mode});
+    World world(&solver);
+    HangBox(&world);
+    world.Step();
+    EXPECT_EQ(solver.problem().rows.size() + solver.problem().joint_rows.size(), 3u);
+    const btContactSolverInfo& info = world.solver_info();
+    solver.solveGroup(nullptr, 0, nullptr, 0, nullptr, 0, info, nullptr, nullptr);
+    EXPECT_TRUE(solver.report().ok());
+    EXPECT_TRUE(solver.problem().bodies.empty());
+    EXPECT_TRUE(solver.impulses().empty());
+  }
+}
+
 TEST(Features, SweepsFollowTheIterationsOfTheWorldAndOfTheJoint) {
   bullet::ConstraintSolver solver;
   World world(&solver);
