@@ -24,13 +24,23 @@ void AddFeedback(const AnyRow& row, btScalar force, const btTypedConstraint& joi
   feedback->m_appliedTorqueBodyB += ToBullet(row.angular_b) * force * b.getAngularFactor();
 }
 
+bool IsFinite(const btTransform& pose) {
+  double zero = 0;
+  for (int k = 0; k < 3; ++k) {
+    zero += 0 * pose.getOrigin()[k];
+    for (int l = 0; l < 3; ++l) zero += 0 * pose.getBasis()[k][l];
+  }
+  return zero == 0;
+}
+
+/// No row sees what pushes are made of, an ERP that is no number among it: nobody refused that.
 void WritePush(const PushVelocity& push, const btContactSolverInfo& info, btRigidBody* rigid) {
   if (push.linear.isZero() && push.angular.isZero()) return;
   btTransform moved;
   btTransformUtil::integrateTransform(rigid->getWorldTransform(), push.linear,
                                       push.angular * info.m_splitImpulseTurnErp, info.m_timeStep,
                                       moved);
-  rigid->setWorldTransform(moved);
+  if (IsFinite(moved)) rigid->setWorldTransform(moved);
 }
 
 }  // namespace

@@ -176,6 +176,19 @@ TEST(Features, DeepPenetrationIsPushedOutWithoutSpeed) {
   EXPECT_LT(box->getLinearVelocity().y(), 0.01);
 }
 
+TEST(Features, APushThatIsNoNumberMovesNothing) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.AddGround(10);
+  btRigidBody* const box = world.AddBox(
+      btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.4), 0), .surface = {}});
+  world.solver_info().m_erp2 = std::numeric_limits<btScalar>::quiet_NaN();
+  world.Step();
+
+  EXPECT_TRUE(solver.report().ok());
+  EXPECT_NEAR(box->getCenterOfMassPosition().y(), 0.4, 1e-6);
+}
+
 TEST(Features, RollingFrictionStopsABall) {
   const auto speed_after = [](btScalar rolling_friction) {
     bullet::ConstraintSolver solver;
