@@ -216,6 +216,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
+  if (impl_->report.ok() && !fast.FitsBullet()) impl_->report.status = Status::kOverflow;
   impl_->solved_fast = impl_->report.ok();
 
   const Clock::time_point solved = Clock::now();
@@ -266,6 +267,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   impl_->solver.settings() = settings;
   impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities(),
                       &impl_->report);
+  if (impl_->report.ok() && !impl_->rows.FitsBullet()) impl_->report.status = Status::kOverflow;
   if (recording) impl_->recorder->End(settings, impl_->report);
   if (!impl_->report.ok()) {
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(

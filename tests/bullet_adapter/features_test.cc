@@ -221,6 +221,21 @@ TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
   EXPECT_GE(solver.report().bad_row, 0);
 }
 
+// A joint with a lever of 1e-6 m that is to move by 1e35 m/s: spins of 1e41 rad/s are numbers to
+// the solver and to Bullet in double precision, not to Bullet in floats.
+TEST(Features, AMotionThatBulletCannotHoldIsAnOverflow) {
+  bullet::ConstraintSolver solver({.order = SweepOrder::kForward});
+  World world(&solver);
+  btPoint2PointConstraint* const joint = HangBox(&world);
+  joint->getRigidBodyA().setLinearFactor({0, 0, 0});
+  joint->setPivotA({0, btScalar(1e-28), 0});
+  joint->setPivotB({btScalar(1e20), 5, 0});
+  world.Step();
+  const bool is_float = sizeof(btScalar) == sizeof(float);
+  EXPECT_EQ(solver.report().status, is_float ? Status::kOverflow : Status::kOk);
+  EXPECT_EQ(solver.fell_back(), is_float);
+}
+
 TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
   bullet::ConstraintSolver solver(Settings{.budget = Budget::Time(std::chrono::nanoseconds(0))});
   World world(&solver);
