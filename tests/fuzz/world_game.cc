@@ -9,6 +9,7 @@ namespace cairn::test {
 namespace {
 
 constexpr int kMostFrames = 16;
+constexpr int kFramesOfAPile = 2;
 constexpr int kMostEvents = 2;  // at each moment of a frame
 constexpr int kPlainFrames = 3;
 /// Of one world on one instruction set; most take a hundredth of a second.
@@ -34,7 +35,8 @@ WorldGame::WorldGame(Choices* choices, const Play& play)
   ChangeSettings();
   ChangeOptions();
   AddGround();
-  if (choices_.OneIn(64)) AddPile();
+  has_pile_ = choices_.OneIn(64);
+  if (has_pile_) AddPile();
   for (int i = choices_.Below(10); i >= 0; --i) AddBody();
   for (int i = choices_.Below(6); i > 0; --i) AddJoint();
 }
@@ -175,7 +177,8 @@ GameResult PlayWorldOnce(std::span<const std::uint8_t> bytes, const Play& play) 
   const auto start = std::chrono::steady_clock::now();
   Choices choices(bytes);
   WorldGame game(&choices, play);
-  for (int frame = 0; frame < kMostFrames && !(frame > 0 && choices.empty()); ++frame) {
+  const int frames = game.has_pile() ? kFramesOfAPile : kMostFrames;
+  for (int frame = 0; frame < frames && !(frame > 0 && choices.empty()); ++frame) {
     game.Frame();
   }
   game.EndWithAPlainWorld();

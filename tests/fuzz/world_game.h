@@ -51,6 +51,8 @@ class WorldGame final : private btActionInterface {
   /// Removes all bodies and joints and gives the solver a world that nobody can refuse.
   void EndWithAPlainWorld();
 
+  /// Whether there are bodies enough to be worth threads.
+  bool has_pile() const { return has_pile_; }
   const JudgedSolver& solver() const { return *solver_; }
   /// Of all that was seen so far; numbers that are none are all alike.
   std::uint64_t hash() const { return hash_.value(); }
@@ -121,6 +123,7 @@ class WorldGame final : private btActionInterface {
   std::vector<Piece> pieces_;
   std::vector<Link> links_;
   int events_[static_cast<int>(Moment::kCount)] = {};  ///< still to happen in this frame
+  bool has_pile_ = false;
   Hash hash_;
 };
 
