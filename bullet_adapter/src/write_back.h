@@ -13,8 +13,8 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
-/// Whether Bullet's numbers, floats perhaps, hold the impulses of rows, and the motion of all bodies
-/// that came with one that they hold.
+/// Whether Bullet's numbers, floats perhaps, hold the impulses of rows, and the motion of all
+/// bodies that came with one that they hold.
 bool FitsBullet(const GroupProblem& group, const BodyTable& bodies,
                 std::span<const Velocity> changes);
 
