@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -104,7 +105,10 @@ void ReadCircumstances(const Json& json, RunFile* file) {
 
 Json Parse(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
+  std::error_code error;
+  const bool is_folder = std::filesystem::is_directory(path, error);
+  if (is_folder) errno = EISDIR;  // which is opened, and cannot be read
+  if (is_folder || !stream) {
     throw Failure(kUsage, fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
   }
   Json json = Json::parse(stream, nullptr, false);

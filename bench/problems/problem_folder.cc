@@ -20,7 +20,7 @@ class Meta {
   explicit Meta(const fs::path& folder) : path_(folder / "meta.json") {
     try {
       json_ = Json::parse(ReadText(path_));
-    } catch (const Json::parse_error& error) {
+    } catch (const Json::exception& error) {
       Refuse(std::string("is no JSON: ") + error.what());
     }
     if (!json_.is_object()) Refuse("expected a JSON object");

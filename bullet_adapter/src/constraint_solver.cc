@@ -216,6 +216,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
+  if (impl_->report.ok() && !fast.FitsBullet()) impl_->report.status = Status::kOverflow;
   impl_->solved_fast = impl_->report.ok();
 
   const Clock::time_point solved = Clock::now();
@@ -248,15 +249,15 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
     btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds, int num_manifolds,
     btTypedConstraint** constraints, int num_constraints, const btContactSolverInfo& info,
     btIDebugDraw* debug_drawer) {
+  const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
+                       &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
+                       &m_tmpSolverContactRollingFrictionConstraintPool};
+  impl_->rows.Read(pools, info, LimitsOf(impl_->settings));
   if (m_tmpSolverBodyPool.size() == 0) {
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
     return 0;
   }
-  const RowPools pools{&m_tmpSolverBodyPool, &m_tmpSolverNonContactConstraintPool,
-                       &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
-                       &m_tmpSolverContactRollingFrictionConstraintPool};
-  impl_->rows.Read(pools, info, LimitsOf(impl_->settings));
 
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;
@@ -266,6 +267,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   impl_->solver.settings() = settings;
   impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities(),
                       &impl_->report);
+  if (impl_->report.ok() && !impl_->rows.FitsBullet()) impl_->report.status = Status::kOverflow;
   if (recording) impl_->recorder->End(settings, impl_->report);
   if (!impl_->report.ok()) {
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(

@@ -104,6 +104,8 @@ void FastGroup::Learn(const btContactSolverInfo& info, const Report& report) {
   stiffness_.Learn(info.m_timeStep, problem(), impulses(), report);
 }
 
+bool FastGroup::FitsBullet() const { return bullet::FitsBullet(group_, bodies_, velocities_); }
+
 void FastGroup::Write(const btContactSolverInfo& info) {
   pushes_.Solve(info, bodies_.size());
   WriteContacts(group_, info);

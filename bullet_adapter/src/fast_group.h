@@ -58,6 +58,8 @@ class FastGroup {
   /// Whose manifolds.
   const ContactPoints& contacts() const { return contacts_; }
 
+  /// Whether the result is finite in Bullet's numbers.
+  bool FitsBullet() const;
   /// Pushes bodies out of deep penetration, and writes everything to Bullet's objects.
   void Write(const btContactSolverInfo& info);
 

@@ -111,6 +111,18 @@ void GroupRows::ReadContacts(const RowPools& pools, const btContactSolverInfo& i
   }
 }
 
+bool GroupRows::FitsBullet() const {
+  btScalar zero = 0;
+  for (const double impulse : impulses_) zero += 0 * static_cast<btScalar>(impulse);
+  for (const Velocity& velocity : velocities_) {
+    for (int k = 0; k < 3; ++k) {
+      zero += 0 * static_cast<btScalar>(velocity.linear[k]);
+      zero += 0 * static_cast<btScalar>(velocity.angular[k]);
+    }
+  }
+  return zero == 0;
+}
+
 void GroupRows::Write(const RowPools& pools) const {
   for (size_t i = 0; i < sources_.size(); ++i) {
     sources_[i]->m_appliedImpulse = static_cast<btScalar>(impulses_[i]);

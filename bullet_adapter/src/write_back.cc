@@ -24,16 +24,50 @@ void AddFeedback(const AnyRow& row, btScalar force, const btTypedConstraint& joi
   feedback->m_appliedTorqueBodyB += ToBullet(row.angular_b) * force * b.getAngularFactor();
 }
 
+/// 0 where all three are finite.
+btScalar ZeroTimes(const btVector3& value) { return 0 * value.x() + 0 * value.y() + 0 * value.z(); }
+
+btVector3 VelocityAfter(const Motion& motion, const Velocity& change) {
+  return motion.velocity + ToBullet(change.linear) + motion.external_velocity;
+}
+
+btVector3 SpinAfter(const Motion& motion, const Velocity& change) {
+  return motion.spin + ToBullet(change.angular) + motion.external_spin;
+}
+
+bool IsFinite(const btTransform& pose) {
+  const btMatrix3x3& basis = pose.getBasis();
+  return ZeroTimes(pose.getOrigin()) + ZeroTimes(basis[0]) + ZeroTimes(basis[1]) +
+             ZeroTimes(basis[2]) ==
+         0;
+}
+
+/// No row sees what pushes are made of, an ERP that is no number among it: nobody refused that.
 void WritePush(const PushVelocity& push, const btContactSolverInfo& info, btRigidBody* rigid) {
   if (push.linear.isZero() && push.angular.isZero()) return;
   btTransform moved;
   btTransformUtil::integrateTransform(rigid->getWorldTransform(), push.linear,
                                       push.angular * info.m_splitImpulseTurnErp, info.m_timeStep,
                                       moved);
-  rigid->setWorldTransform(moved);
+  if (IsFinite(moved)) rigid->setWorldTransform(moved);
 }
 
 }  // namespace
+
+bool FitsBullet(const GroupProblem& group, const BodyTable& bodies,
+                std::span<const Velocity> changes) {
+  btScalar zero = 0;
+  for (const double impulse : group.impulses) zero += 0 * static_cast<btScalar>(impulse);
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (!bodies.reacts(i)) continue;
+    const Motion& motion = bodies.motion(i);
+    const btScalar before = ZeroTimes(motion.velocity + motion.external_velocity) +
+                            ZeroTimes(motion.spin + motion.external_spin);
+    if (before != 0) continue;
+    zero += ZeroTimes(VelocityAfter(motion, changes[i])) + ZeroTimes(SpinAfter(motion, changes[i]));
+  }
+  return zero == 0;
+}
 
 void WriteContacts(const GroupProblem& group, const btContactSolverInfo& info) {
   const bool warm_starts = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
@@ -84,9 +118,8 @@ void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
     if (!bodies.reacts(i)) continue;
     const Motion& motion = bodies.motion(i);
     btRigidBody& rigid = bodies.rigid(i);
-    rigid.setLinearVelocity(motion.velocity + ToBullet(changes[i].linear) +
-                            motion.external_velocity);
-    rigid.setAngularVelocity(motion.spin + ToBullet(changes[i].angular) + motion.external_spin);
+    rigid.setLinearVelocity(VelocityAfter(motion, changes[i]));
+    rigid.setAngularVelocity(SpinAfter(motion, changes[i]));
     if (!pushes.velocities().empty()) WritePush(pushes.velocities()[i], info, &rigid);
   }
 }

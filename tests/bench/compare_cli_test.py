@@ -199,6 +199,10 @@ class FileTest(CompareTest):
         result = cairn("compare", self.path("missing.json"), self.write("new.json", self.old))
         self.assertEqual(result.returncode, USAGE)
         self.assertRegex(result.stderr, "cannot read .*missing.json")
+        os.mkdir(self.path("folder.json"))
+        result = cairn("compare", self.path("new.json"), self.path("folder.json"))
+        self.assertEqual(result.returncode, USAGE)
+        self.assertRegex(result.stderr, "cannot read .*folder.json': Is a directory")
 
     def test_other_versions_are_refused(self):
         message = self.refusal(self.changed(lambda r: r.update(schema_version=99)))

@@ -308,6 +308,7 @@ TEST_F(ProblemFolder, SaysWhatIsWrongWithMetaJson) {
   const std::string path = Path("meta.json").string() + ": ";
   EXPECT_THAT(ErrorOfFolder(), HasSubstr("meta.json: cannot be read"));
   EXPECT_THAT(error("{"), HasSubstr("meta.json: is no JSON: "));
+  EXPECT_THAT(error(R"({"n": 1e999})"), HasSubstr("meta.json: is no JSON: "));
   EXPECT_EQ(error("[]"), path + "expected a JSON object");
   EXPECT_EQ(error(R"({"kind": "lcp"})"), path + "'name' is missing; expected a text");
   EXPECT_EQ(error(R"({"name": 3, "kind": "lcp"})"), path + "'name' is no text");

@@ -90,6 +90,21 @@ TEST(Features, AnEmptyWorldIsNoError) {
   EXPECT_TRUE(solver.report().ok());
 }
 
+TEST(Features, ASubstepWithoutBodiesHasAProblemWithoutRows) {
+  for (bullet::Mode mode : {bullet::Mode::kFast, bullet::Mode::kReference}) {
+    bullet::ConstraintSolver solver({}, {.mode = mode});
+    World world(&solver);
+    HangBox(&world);
+    world.Step();
+    EXPECT_EQ(solver.problem().rows.size() + solver.problem().joint_rows.size(), 3u);
+    const btContactSolverInfo& info = world.solver_info();
+    solver.solveGroup(nullptr, 0, nullptr, 0, nullptr, 0, info, nullptr, nullptr);
+    EXPECT_TRUE(solver.report().ok());
+    EXPECT_TRUE(solver.problem().bodies.empty());
+    EXPECT_TRUE(solver.impulses().empty());
+  }
+}
+
 TEST(Features, SweepsFollowTheIterationsOfTheWorldAndOfTheJoint) {
   bullet::ConstraintSolver solver;
   World world(&solver);
@@ -161,6 +176,19 @@ TEST(Features, DeepPenetrationIsPushedOutWithoutSpeed) {
   EXPECT_LT(box->getLinearVelocity().y(), 0.01);
 }
 
+TEST(Features, APushThatIsNoNumberMovesNothing) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.AddGround(10);
+  btRigidBody* const box = world.AddBox(
+      btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.4), 0), .surface = {}});
+  world.solver_info().m_erp2 = std::numeric_limits<btScalar>::quiet_NaN();
+  world.Step();
+
+  EXPECT_TRUE(solver.report().ok());
+  EXPECT_NEAR(box->getCenterOfMassPosition().y(), 0.4, 1e-6);
+}
+
 TEST(Features, RollingFrictionStopsABall) {
   const auto speed_after = [](btScalar rolling_friction) {
     bullet::ConstraintSolver solver;
@@ -191,6 +219,21 @@ TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
   world.Step();
   EXPECT_EQ(solver.report().status, Status::kNotFinite);
   EXPECT_GE(solver.report().bad_row, 0);
+}
+
+// A joint with a lever of 1e-6 m that is to move by 1e35 m/s: spins of 1e41 rad/s are numbers to
+// the solver and to Bullet in double precision, not to Bullet in floats.
+TEST(Features, AMotionThatBulletCannotHoldIsAnOverflow) {
+  bullet::ConstraintSolver solver({.order = SweepOrder::kForward});
+  World world(&solver);
+  btPoint2PointConstraint* const joint = HangBox(&world);
+  joint->getRigidBodyA().setLinearFactor({0, 0, 0});
+  joint->setPivotA({0, btScalar(1e-28), 0});
+  joint->setPivotB({btScalar(1e20), 5, 0});
+  world.Step();
+  const bool is_float = sizeof(btScalar) == sizeof(float);
+  EXPECT_EQ(solver.report().status, is_float ? Status::kOverflow : Status::kOk);
+  EXPECT_EQ(solver.fell_back(), is_float);
 }
 
 TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {

@@ -2,15 +2,15 @@
 // A long life of a world in which everything comes and goes. CAIRN_LIFE_FRAMES and CAIRN_LIFE_SEED
 // ask for another length and another life than these. A program of its own: it decides where
 // Bullet's memory comes from.
+#include <LinearMath/btAlignedAllocator.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include "tests/bullet_adapter/life.h"
-#include "tests/bullet_adapter/recycling.h"
+#include "tests/core/support/recycling.h"
 
 namespace cairn::test {
 namespace {
@@ -23,12 +23,6 @@ int FromEnvironment(const char* name, int otherwise) {
 int Frames() { return FromEnvironment("CAIRN_LIFE_FRAMES", 3000); }
 std::uint64_t Seed() { return static_cast<std::uint64_t>(FromEnvironment("CAIRN_LIFE_SEED", 1)); }
 
-/// Bytes in use in the whole process.
-size_t BytesInUse() {
-  const auto info = mallinfo2();
-  return info.uordblks + info.hblkhd;
-}
-
 struct Lived {
   LifeFacts facts;
   std::uint64_t hash = 0;
@@ -38,6 +32,7 @@ struct Lived {
 
 Lived Live(Recycling recycling, int frames) {
   SetRecycling(recycling);
+  btAlignedAllocSetCustomAligned([](size_t size, int) { return TakeMemory(size); }, GiveMemory);
   WatchedSolver solver;
   Lived lived;
   {

@@ -8,7 +8,7 @@
 #include "cairn/bullet/constraint_solver.h"
 #include "measure/instrumented_solver.h"
 #include "tests/bullet_adapter/scene_world.h"
-#include "tests/core/support/new_counter.h"
+#include "tests/core/support/watched_new.h"
 
 namespace cairn::test {
 namespace {

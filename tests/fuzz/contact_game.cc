@@ -3,14 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <sstream>
 
 #include "problem/contact_expansion.h"
 #include "reference/pack.h"
-#include "simd/target.h"
-#include "tests/simd/ask_for.h"
 
 namespace cairn::test {
 namespace {
@@ -22,25 +19,6 @@ bool SameBytes(const std::vector<T>& a, const std::vector<T>& b) {
   const size_t bytes = a.size() * sizeof(T);
   return a.size() == b.size() && (bytes == 0 || std::memcmp(a.data(), b.data(), bytes) == 0);
 }
-
-/// FNV-1a.
-class Hash {
- public:
-  template <class T>
-  void Add(const T& value) {
-    unsigned char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    for (const unsigned char byte : bytes) value_ = (value_ ^ byte) * 0x100000001b3u;
-  }
-  template <class T>
-  void AddAll(const std::vector<T>& values) {
-    for (const T& value : values) Add(value);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
 
 /// Looks at one frame, before and after.
 class Judge {
@@ -248,7 +226,6 @@ GameResult PlayGame(std::span<const std::uint8_t> bytes, const Play& play) {
   GameMaker maker(&choices);
   Settings settings = maker.MakeSettings();
   settings.threads = play.threads;
-  setenv("CAIRN_SIMD", play.simd.c_str(), 1);
   Solver solver(settings);
   GameWorld world;
   GameResult result;
@@ -277,18 +254,8 @@ GameResult PlayGame(std::span<const std::uint8_t> bytes, const Play& play) {
   return result;
 }
 
-std::string PlayEverywhere(std::span<const std::uint8_t> bytes) {
-  std::uint64_t hash = 0;
-  int threads = 0;
-  for (const simd::Target target : simd::SupportedTargets()) {
-    const AskFor restore(target);
-    const Play play{std::string(simd::TargetName(target)), 1 + threads++ % 3};
-    const GameResult result = PlayGame(bytes, play);
-    if (!result.broken.empty()) return result.broken + ", " + play.simd;
-    if (threads > 1 && result.hash != hash) return "other bits on " + play.simd;
-    hash = result.hash;
-  }
-  return "";
+std::string PlayContactGame(std::span<const std::uint8_t> bytes) {
+  return PlayEverywhere(&PlayGame, bytes);
 }
 
 }  // namespace cairn::test

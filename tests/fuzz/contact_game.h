@@ -9,6 +9,7 @@
 
 #include "cairn/solver.h"
 #include "tests/fuzz/choices.h"
+#include "tests/fuzz/play.h"
 
 namespace cairn::test {
 
@@ -64,23 +65,11 @@ class GameMaker {
   Numbers numbers_;
 };
 
-/// How a game is played: none of this may change a bit.
-struct Play {
-  std::string simd;  ///< CAIRN_SIMD
-  int threads = 1;
-};
-
-struct GameResult {
-  std::uint64_t hash = 0;
-  std::string broken;  ///< the promise that was; empty if none was
-};
-
-/// Plays the game of these bytes.
+/// Plays the game of these bytes, on the instruction set that CAIRN_SIMD asks for.
 GameResult PlayGame(std::span<const std::uint8_t> bytes, const Play& play);
 
-/// The same on every instruction set of this machine, on 1, 2 and 3 threads in turn. Returns the
-/// promise that was broken, or nothing.
-std::string PlayEverywhere(std::span<const std::uint8_t> bytes);
+/// The same by PlayEverywhere().
+std::string PlayContactGame(std::span<const std::uint8_t> bytes);
 
 /// Solves the problem in matrix form of these bytes by a method of theirs, likewise.
 std::string SolveMatrix(std::span<const std::uint8_t> bytes);

@@ -8,7 +8,7 @@
 #include "cholesky/front_cholesky.h"
 #include "runtime/crew.h"
 #include "tests/core/support/factor_graphs.h"
-#include "tests/core/support/new_counter.h"
+#include "tests/core/support/watched_new.h"
 
 namespace cairn {
 namespace {

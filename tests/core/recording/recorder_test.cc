@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -104,6 +108,40 @@ TEST(Recorder, IsAskedByTheEnvironment) {
   EXPECT_THAT(recorder->files().last_failure, HasSubstr("CAIRN_RECORD_FRAMES='two'"));
   unsetenv("CAIRN_RECORD");
   unsetenv("CAIRN_RECORD_FRAMES");
+}
+
+/// Frames of a game until it is killed, which it is so many microseconds after it began.
+void PlayUntilKilled(const std::string& folder, useconds_t time) {
+  const pid_t game = fork();
+  ASSERT_GE(game, 0);
+  if (game == 0) {
+    Recorder recorder("test");
+    recorder.RecordTo(folder, {});
+    Play(&recorder, 1 << 20);
+    _exit(0);
+  }
+  usleep(time);
+  kill(game, SIGKILL);
+  waitpid(game, nullptr, 0);
+}
+
+TEST(Recorder, OfAGameThatWasKilledCanBeReadUpToTheLastWholeFrame) {
+  int games_with_frames = 0;
+  for (useconds_t time = 1000; time < 60'000; time += 2900) {
+    const std::string folder = FreshFolder("recorder_killed");
+    PlayUntilKilled(folder, time);
+    int frames = 0;
+    for (const std::string& file :
+         fs::exists(folder) ? FilesIn(folder) : std::vector<std::string>()) {
+      if (file.ends_with(".part")) continue;  // of the frame that was being written
+      Recording read;
+      const RecordingStatus status = Load(folder + "/" + file, &read);
+      EXPECT_TRUE(status.ok()) << file << ": " << status.message;
+      EXPECT_EQ(read.frame, frames++) << "frames are missing before the last one";
+    }
+    games_with_frames += frames > 0;
+  }
+  EXPECT_GT(games_with_frames, 0);
 }
 
 TEST(Recorder, CountsWhatCannotBeWritten) {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "tests/core/support/block_problems.h"
-#include "tests/core/support/failing_new.h"
 #include "tests/core/support/manifold_problems.h"
+#include "tests/core/support/watched_new.h"
 
 namespace cairn {
 namespace {

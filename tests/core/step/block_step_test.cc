@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "pack/block_frame.h"
+#include "reference/step.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/packed.h"
 

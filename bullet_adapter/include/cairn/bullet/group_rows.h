@@ -41,6 +41,8 @@ class GroupRows {
   std::span<const double> impulses() const { return impulses_; }
   std::span<Velocity> velocities() { return velocities_; }
 
+  /// Whether impulses() and velocities() are finite in Bullet's numbers.
+  bool FitsBullet() const;
   /// Writes impulses() and velocities() into the pools that were read.
   void Write(const RowPools& pools) const;
   /// Reads velocity changes from the pools, as a solver of Bullet's left them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/core/support/new_counter.h"
+#include "tests/core/support/watched_new.h"
 
 #include <atomic>
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace {
 
-std::atomic<long> calls{0};
+std::atomic<long> calls{0}, failing{-1};
 
 void* Allocate(std::size_t size, std::size_t alignment) {
-  calls.fetch_add(1, std::memory_order_relaxed);
+  if (calls.fetch_add(1) == failing.load()) throw std::bad_alloc();
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
   if (memory == nullptr) throw std::bad_alloc();
@@ -38,5 +38,7 @@ void* Allocate(std::size_t size, std::size_t alignment) {
 namespace cairn::test {
 
 long NewCalls() { return calls.load(); }
+
+void FailNewAfter(long count) { failing = count < 0 ? -1 : calls.load() + count; }
 
 }  // namespace cairn::test

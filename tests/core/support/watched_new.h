@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
+// A program that links watched_new.cc gets an operator new that counts, and fails when told to.
 #pragma once
 
 namespace cairn::test {
 
+/// Calls of operator new so far, on all threads.
+long NewCalls();
 /// From now on lets so many calls of operator new succeed, on all threads, and the next one fail; a
-/// negative number lets all succeed. A program that links failing_new.cc gets such an operator new.
+/// negative number lets all succeed.
 void FailNewAfter(long calls);
-/// Calls since FailNewAfter().
-long NewCallsSince();
 
 }  // namespace cairn::test
