@@ -98,7 +98,74 @@ inline void AddEnergies(const PairBlock* blocks, const BlockError* errors, int c
   for (int l = 0; l < kLanes; ++l) sums[l] = all[l];
 }
 
-constexpr LaneKernels kKernels = {MoveLines, MoveBodies, FindLargest, AddEnergies};
+inline void FindGains(const PairBlock& block, const Line* lines, const Line* x, LaneGains* gains) {
+  double gain[kLanes] = {}, square[kLanes] = {};
+  const Line* row = lines + PairLines(block.form);
+  for (int i = 0; i < block.row_count; ++i) {
+    const Line& target = row[JacobianLines(block.form)];
+    for (int l = 0; l < kLanes; ++l) {
+      gain[l] += static_cast<double>(target.lane[l]) * static_cast<double>(x[i].lane[l]);
+    }
+    if (block.rows[i].soft) {
+      const Line& soft = row[JacobianLines(block.form) + 2];
+      for (int l = 0; l < kLanes; ++l) {
+        const double impulse = static_cast<double>(x[i].lane[l]);
+        square[l] += static_cast<double>(soft.lane[l]) * impulse * impulse;
+      }
+    }
+    row += RowLines(block.form, block.rows[i]);
+  }
+  for (int l = 0; l < kLanes; ++l) gains->gain[l] = l < block.lanes ? gain[l] : 0;
+  for (int l = 0; l < kLanes; ++l) gains->square[l] = l < block.lanes ? square[l] : 0;
+}
+
+inline void FindSquares(const BodyLane* bodies, int count, double* squares) {
+  for (int i = 0; i < count; ++i) {
+    double products[8];
+    for (int k = 0; k < 8; ++k) {
+      products[k] = static_cast<double>(bodies[i].u[k]) * static_cast<double>(bodies[i].u[k]);
+    }
+    squares[i] = ((products[0] + products[4]) + (products[2] + products[6])) +
+                 ((products[1] + products[5]) + (products[3] + products[7]));
+  }
+}
+
+/// Sums and maxima in eight places, the same on every target.
+constexpr int kPlaces = 8;
+
+inline double FindMost(const double* numbers, int count) {
+  double most[kPlaces] = {};
+  int i = 0;
+  for (; i + kPlaces <= count; i += kPlaces) {
+    for (int k = 0; k < kPlaces; ++k) {
+      const double size = numbers[i + k] < 0 ? -numbers[i + k] : numbers[i + k];
+      most[k] = most[k] < size ? size : most[k];
+    }
+  }
+  for (int k = 0; i < count; ++i, ++k) {
+    const double size = numbers[i] < 0 ? -numbers[i] : numbers[i];
+    most[k] = most[k] < size ? size : most[k];
+  }
+  double all = 0;
+  for (const double one : most) all = all < one ? one : all;
+  return all;
+}
+
+inline double AddRounded(const double* numbers, int count, double scale) {
+  // whole numbers, so that their order does not matter
+  double sums[kPlaces] = {};
+  int i = 0;
+  for (; i + kPlaces <= count; i += kPlaces) {
+    for (int k = 0; k < kPlaces; ++k) sums[k] += RoundedSigned(numbers[i + k] * scale);
+  }
+  for (int k = 0; i < count; ++i, ++k) sums[k] += RoundedSigned(numbers[i] * scale);
+  double all = 0;
+  for (const double sum : sums) all += sum;
+  return all;
+}
+
+constexpr LaneKernels kKernels = {MoveLines, MoveBodies,  FindLargest, AddEnergies,
+                                  FindGains, FindSquares, FindMost,    AddRounded};
 
 }  // namespace numbers
 }  // namespace HWY_NAMESPACE

@@ -21,6 +21,13 @@ struct Moving {
   Numbers* direction;
 };
 
+/// What the rows of a pair add to the energy that their problem minimises, in each lane [J]; 0 in
+/// lanes that are not used.
+struct LaneGains {
+  double gain[kLanes];    ///< target'x
+  double square[kLanes];  ///< x'E x
+};
+
 /// Passes over numbers of lanes that relax nothing. Same bits on every target.
 struct LaneKernels {
   /// now += beta direction, direction := keep (now - last), last := now: so many lines.
@@ -39,10 +46,27 @@ struct LaneKernels {
   /// numbers.
   void (*add_energies)(const PairBlock* blocks, const BlockError* errors, int count, double scale,
                        double* sums);
+
+  /// target'x and x'E x of the rows of one block, lane by lane, to be written. @p lines: the floats
+  /// of the block; @p x: its impulses.
+  void (*find_gains)(const PairBlock& block, const Line* lines, const Line* x, LaneGains* gains);
+  /// |u|^2 of so many bodies.
+  void (*find_squares)(const BodyLane* bodies, int count, double* squares);
+  /// The largest |number|; what is not a number is passed over.
+  double (*find_most)(const double* numbers, int count);
+  /// The sum of @p scale times each number, rounded to whole numbers first.
+  double (*add_rounded)(const double* numbers, int count, double scale);
 };
 
 /// @pre the CPU supports it
 const LaneKernels& LaneKernelsFor(Target target);
+
+/// @p number as a whole number, to the nearest even one, if |number| < 2^51. What is not a number
+/// stays so.
+inline double RoundedSigned(double number) {
+  constexpr double kNoFractions = 6755399441055744.0;  // 1.5 * 2^52
+  return (number + kNoFractions) - kNoFractions;
+}
 
 /// @p number >= 0 as a whole number, unless it is so large anyway. What is not a number stays so.
 inline double Rounded(double number) {

@@ -244,14 +244,14 @@ TEST(RowProblem, LetsSolversGoAsFarAsTheBudget) {
   for (const std::string_view scene : {"tower", "wall"}) {
     Frame frame(scene, 40);
     const auto problem = frame.problem();
-    EXPECT_EQ(problem->limited_sweeps, 10);
+    EXPECT_EQ(problem->limited_sweeps, 0);  // only overrides of joints limit rows
     CairnRowSolver solver(Method::kPgsSm, CountedOptions());
     for (int time = 0; time < 2; ++time) {
       ASSERT_EQ(solver.Prepare(*problem), "");
       solver.IterateUntil({.iterations = {}, .time = std::chrono::milliseconds(400)});
       const RowOutcome outcome = solver.Result();
       EXPECT_GT(outcome.steps_accepted, 0) << scene << ", time " << time;
-      EXPECT_GT(outcome.iterations, 3 * problem->limited_sweeps) << scene;
+      EXPECT_GT(outcome.iterations, 30) << scene;
       EXPECT_EQ(outcome.stop, "budget spent");
     }
   }

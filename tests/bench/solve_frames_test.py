@@ -44,9 +44,6 @@ class FramesTest(cli_test.CairnTest):
     def test_with_time_enough_steps_are_taken_beyond_the_iterations_of_the_game(self):
         for scene in ("tower", "wall"):
             path = self.record(scene, 40)
-            text = self.fine("solve", path, "--solver", "pgs-sm", "--budget", "400ms", "--errors",
-                             "none")
-            self.assertIn("recorded with 10 iterations, a limit that is lifted here", text)
             solver = self.solvers_of(self.solve_json(path, "--solver", "pgs-sm", "--budget", "400ms",
                                                      "--errors", "none"))["pgs-sm"]
             self.assertGreater(solver["steps_accepted"], 0, scene)

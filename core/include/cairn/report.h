@@ -59,7 +59,7 @@ enum class NoStep {
   kPaused,        ///< One was undone or too dear of late; see StepPolicy::kMeasured.
   kTooDear,       ///< It would not have fitted the budget with its sweeps, or cost more than it can
                   ///< gain.
-  kSweepsFaster,  ///< Sweeps are predicted to gain more in what it costs of the budget.
+  kSweepsFaster,  ///< Sweeps in its place are predicted to gain more.
 };
 
 std::string_view Describe(NoStep reason);

@@ -41,6 +41,10 @@ enum class SweepOrder {
 enum class StepPolicy {
   kMeasured,  ///< Where it is predicted to pay, and no longer where it was measured not to.
   kAlways,    ///< After every k_gs sweeps that may be followed by k_gs more, at any cost.
+  /// Where it is predicted to do more than as many sweeps again as max_sweeps, and to cost no more
+  /// than all else that is done about its island. Islands without a step make those sweeps. Contact
+  /// problems in blocks without a budget; elsewhere as kMeasured.
+  kWeighed,
 };
 
 /// What a friction row does while its parent row pushes with nothing.
@@ -70,7 +74,7 @@ struct Settings {
   /// that removes rows which left their bounds. 0 makes every method but kInteriorPoint plain
   /// sweeps. In matrix form kPgsSm goes on beyond it while the predicted set settles.
   int k_sm = 2;
-  /// Sweeps in one Solve() at most, >= 0.
+  /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed.
   int max_sweeps = 1000;
   /// Solve() is done when no row is further from its law than this: natural residual, in [m/s] for
   /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never. For a

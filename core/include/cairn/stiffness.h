@@ -57,6 +57,7 @@ class GeometricStiffness {
     std::uint64_t key = 0;
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< K [N m], world axes
     Eigen::Vector3d held = Eigen::Vector3d::Zero();       ///< about principal axes [N m]
+    double held_ratio = 0;                                ///< the largest of these over moments
     double inv_mass = 0;                                  ///< who it is
     double inv_inertia = 0;  ///< sum of its inverse moments, not lowered
     bool seen = false;
@@ -64,6 +65,8 @@ class GeometricStiffness {
 
   void FindAnchored(const ContactProblem& problem, const Report& report);
   void Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse, double time_step);
+  void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
+  bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void Remember(double time_step, std::span<const Body> bodies);
@@ -71,11 +74,13 @@ class GeometricStiffness {
   Memory* Find(std::uint64_t key);
 
   std::vector<Memory> memories_;  ///< by key, ascending
+  size_t next_ = 0;               ///< where the next key is looked for first
   std::vector<Memory> fresh_;     ///< those that are new
   std::vector<Raised> raised_;
   std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
   std::vector<char> anchored_;         ///< by island: something of it touches what does not move
   std::span<const int> island_of_;     ///< of the report that is learnt from
+  std::vector<double> pull_;           ///< by body: whether joints may pull too hard
   std::vector<int> pulled_;            ///< bodies with an entry in sums_
   std::vector<int> place_;             ///< by body: in pulled_, -1 for none
   std::vector<Eigen::Matrix3d> sums_;  ///< K of pulled_

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
+#include <limits>
 
 namespace cairn {
 namespace {
@@ -36,13 +38,14 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   // a budget is shared by steps and sweeps: what both gain is watched
   const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
   watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
+  weighs_ = asked && !meter->limited() && settings.step_policy == StepPolicy::kWeighed;
   steps_.Begin(problem, settings, frame, memories, meter, crew, asked);
   Begin();
   GuardStart();
   while (Active()) Leg();
   meter_->Begin();
   Finish();
-  if (watches_ && steps_.asked()) Learn();
+  if (Learns()) Learn();
   FillReport(report);
 }
 
@@ -123,6 +126,17 @@ int BlockCycle::SweepsMade() const {
   return 0;
 }
 
+int BlockCycle::MostSweeps(int island) const {
+  return StepsTaken(island) > 0 ? settings_->max_sweeps : SweepsInPlace(island);
+}
+
+int BlockCycle::SweepsInPlace(int island) const {
+  const int most = settings_->max_sweeps;
+  if (!weighs_) return most;
+  // in whole legs
+  return most + (steps_.SweepsOfEffort(island, most) - most) / settings_->k_gs * settings_->k_gs;
+}
+
 void BlockCycle::Stop(int island, StopReason reason) {
   islands_[island].stop = reason;
   islands_[island].sweeps = made_[frame_->plan().islands()[island].group].sweeps;
@@ -161,7 +175,9 @@ void BlockCycle::ReadErrors(std::vector<Residual>* residuals) const {
 
 void BlockCycle::Leg() {
   const int before = SweepsMade();
-  const int end = before + std::min(settings_->k_gs, settings_->max_sweeps - before);
+  const bool more = weighs_ && before >= settings_->max_sweeps;
+  const int end = more ? before + settings_->k_gs
+                       : before + std::min(settings_->k_gs, settings_->max_sweeps - before);
   for (bool whole = true; whole && Active() && SweepsMade() < end;) {
     const int unseen = UnseenAfter(SweepsMade());
     whole = Sweep(std::min(end - SweepsMade(), unseen));
@@ -251,7 +267,7 @@ void BlockCycle::Judge(bool seen) {
     const int sweeps = made_[plan.islands()[i].group].sweeps;
     if (meter_->spent() && sweeps >= settings_->min_sweeps) {
       Stop(i, meter_->stop_reason());
-    } else if (sweeps >= settings_->max_sweeps) {
+    } else if (sweeps >= MostSweeps(i)) {
       Stop(i, StopReason::kSweepLimit);
     }
   }

@@ -83,6 +83,10 @@ class BlockCycle {
   bool Active() const;
   double ActiveRows() const;  ///< of the groups that are swept
   int SweepsMade() const;
+  /// Of an island, as far as steps were taken there.
+  int MostSweeps(int island) const;
+  /// Without a step.
+  int SweepsInPlace(int island) const;
   void KeepBest();
   /// The best states, and their residuals.
   void Finish();
@@ -98,12 +102,13 @@ class BlockCycle {
   // block_cycle_steps.cc
   void TakeSteps();
   void FindCandidates();
-  double SureGain() const;
+  /// A step did so much that sweeps alone need not be tried.
+  bool IsSure(int island);
   void KeepBetterSteps(int sweeps);
   /// Which steps put in energy, or impulses of joints that floats cannot hold.
   void FindHarm();
   /// The sweeps without its step brought an island closer to its solution than those with it.
-  bool IsBetterAlone(int island) const;
+  bool IsBetterAlone(int island);
   /// By how much a step and its sweeps brought phi down, see Merit, and so many sweeps alone [J].
   double GainOfStep(int island) const;
   double GainAlone(int island) const;
@@ -121,6 +126,12 @@ class BlockCycle {
   /// before it
   bool StepPays(int g, std::span<const int> islands, double planned, double price);
   int StepsTaken(int island) const;
+  /// Without a budget: a step may be taken, and with how many factorisations.
+  NoStep Weigh(int g, int island);
+  /// Of the candidates from @p first on, in group @p g.
+  void KeepWorthwhile(int g, size_t first);
+  /// What steps and sweeps gain is learnt.
+  bool Learns() const { return watches_ || weighs_; }
   /// From here on what sweeps gain is looked at: those since the sweep @p begin.
   void BeginRun(int island, int begin);
   /// Tells the odds what sweeps gained, after the last one.
@@ -133,6 +144,7 @@ class BlockCycle {
   Crew* crew_ = nullptr;
   BlockSteps steps_;
   bool watches_ = false;  ///< what steps and sweeps make of the budget
+  bool weighs_ = false;   ///< steps against the sweeps in their place, see StepPolicy::kWeighed
   bool accelerates_ = false;
   bool guards_ = false;
   Nncg nncg_;

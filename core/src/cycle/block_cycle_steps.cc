@@ -12,18 +12,32 @@ namespace {
 
 /// Fewer sweeps after a step do not smooth what it leaves behind.
 constexpr int kLeastSweepsAfterStep = 3;
-/// A step that brought the residual down to this share is kept without trying sweeps alone. Under a
-/// budget less is enough: that trial takes from it as much as the sweeps of the step do, and what
-/// steps gain is learnt there.
-constexpr double kSureGain = 0.1, kSureGainOfBudget = 0.7;
+/// A step that brought the residual down to this share, and phi down, is kept without trying sweeps
+/// alone: that trial costs as much as the sweeps of the step do.
+constexpr double kSureGain = 0.7;
 /// What fewer sweeps gain says too little; after a step, whose trace they carry, even more so.
 constexpr int kLeastRun = 9, kLeastRunAfterStep = 30;
+/// A step that is weighed costs at most this share of all else on its island, as prices have it:
+/// those of steps in doubles are a third too high.
+constexpr double kMostOfRest = 1.25;
+/// And all of it together so many times what sequential impulses row by row do.
+constexpr double kMostOfScalar = 2.2;
+/// By so much more where there was a step in the last frame: steps that come and go do harm.
+/// Without joints that is for one factorisation.
+constexpr double kSlack = 1.5;
+/// Within so many tolerances sweeps do the rest.
+constexpr double kNear = 10;
+/// Error that a step meets at most where there was none in the last frame [m/s] or [rad/s].
+constexpr double kMostThrown = 1;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
 }  // namespace
 
-double BlockCycle::SureGain() const { return watches_ ? kSureGainOfBudget : kSureGain; }
+bool BlockCycle::IsSure(int i) {
+  if (weighs_ && steps_.odds(i).wants_trial()) return false;
+  return with_step_[i].energy <= kSureGain * before_[i].energy && GainOfStep(i) >= 0;
+}
 
 void BlockCycle::FindCandidates() {
   const int left = settings_->max_sweeps - SweepsMade();
@@ -36,15 +50,19 @@ void BlockCycle::FindCandidates() {
     for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
       if (std::exchange(states_[i].rests, false) || Done(i) || states_[i].too_late) continue;
       if (plan.islands()[i].first_body < 0) continue;
-      const bool due = steps_.Due(i);
-      if (due) stepped_islands_.push_back(i);
-      islands_[i].no_step = due ? NoStep::kEnded : NoStep::kPaused;
+      NoStep no_step = steps_.Due(i) ? NoStep::kEnded : NoStep::kPaused;
+      if (no_step == NoStep::kEnded && weighs_) no_step = Weigh(g, i);
+      if (no_step == NoStep::kEnded) stepped_islands_.push_back(i);
+      islands_[i].no_step = no_step;
     }
     if (stepped_islands_.size() == first) continue;
 
     const auto islands = std::span(stepped_islands_).subspan(first);
     const NoStep refused = PlanStep(g, islands, &planned);
-    if (refused == NoStep::kEnded) continue;
+    if (refused == NoStep::kEnded) {
+      if (weighs_) KeepWorthwhile(g, first);
+      continue;
+    }
     // there is never more left of a budget; the next frame has its own
     for (int i : islands) {
       states_[i].too_late = true;
@@ -93,11 +111,42 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
     if (!meter_->Fits(before.steps + price, before.sweeps)) continue;
     refused = NoStep::kSweepsFaster;
     if (!StepPays(g, islands, before.steps, price)) continue;
-    steps_.Limit(g, most);
+    for (int i : islands) steps_.Limit(i, most);
     *planned = {before.steps + price, before.sweeps};
     return NoStep::kEnded;
   }
   return refused;
+}
+
+NoStep BlockCycle::Weigh(int g, int i) {
+  const StepOdds& odds = steps_.odds(i);
+  const Residual& seen = states_[i].seen;
+  const double largest = std::max(seen.max, seen.max_angular);
+  const bool near = largest <= kNear * settings_->tolerance;
+  // what sweeps have left unsolved for long, a single step would throw
+  const bool thrown = !odds.stepped() && largest > kMostThrown;
+  if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
+  const double rest = steps_.RestAlone(i, settings_->max_sweeps);
+  const double scalar = steps_.ScalarAlone(i, settings_->max_sweeps);
+  const double most_price = std::min(kMostOfRest * rest, kMostOfScalar * scalar - rest);
+  const auto fits = [&](int factorisations) {
+    const bool slack = odds.stepped() && (factorisations == 1 || steps_.HasJoints(i));
+    return steps_.PriceAlone(g, i, factorisations) <= (slack ? kSlack : 1) * most_price;
+  };
+  int most = settings_->k_sm;
+  while (most > 0 && !fits(most)) most /= 2;
+  steps_.Limit(i, most);
+  return most > 0 ? NoStep::kEnded : NoStep::kTooDear;
+}
+
+void BlockCycle::KeepWorthwhile(int g, size_t first) {
+  // their graphs are known now
+  const auto islands = stepped_islands_.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto refused = std::remove_if(islands, stepped_islands_.end(), [this, g](int i) {
+    islands_[i].no_step = Weigh(g, i);
+    return islands_[i].no_step != NoStep::kEnded;
+  });
+  stepped_islands_.erase(refused, stepped_islands_.end());
 }
 
 bool BlockCycle::StepPays(int g, std::span<const int> islands, double planned, double price) {
@@ -157,6 +206,7 @@ void BlockCycle::Learn() {
     if (frame_->plan().islands()[i].first_body < 0) continue;
     StepOdds& odds = steps_.odds(i);
     odds.EndFrame(StepsTaken(i) > 0);
+    if (!watches_) continue;
     const int least = state.run_begin == 0 ? kLeastRun : kLeastRunAfterStep;
     const int sweeps = islands_[i].sweeps - state.run_begin;
     if (sweeps < least || state.start.sweeps == 0) continue;
@@ -210,7 +260,7 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
   bool sure = true;
   for (int i : stepped_islands_) {
     states_[i].better_alone = false;
-    if (!states_[i].harmful && with_step_[i].energy <= SureGain() * before_[i].energy) continue;
+    if (!states_[i].harmful && IsSure(i)) continue;
     Choose(i);
     sure = false;
   }
@@ -243,8 +293,8 @@ double BlockCycle::GainAlone(int i) const {
   return merits_before_.of(i).value() - alone_merits_.of(i).value();
 }
 
-bool BlockCycle::IsBetterAlone(int i) const {
-  if (with_step_[i].energy <= SureGain() * before_[i].energy) return false;
+bool BlockCycle::IsBetterAlone(int i) {
+  if (IsSure(i)) return false;
   const StepTrial trial{.with_step = with_step_[i].energy,
                         .alone = alone_[i].energy,
                         .closer = GainOfStep(i) > GainAlone(i)};
@@ -278,7 +328,9 @@ void BlockCycle::TryWithoutSteps(int sweeps) {
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Chosen(i)) continue;
     states_[i].better_alone = states_[i].stepped && (states_[i].harmful || IsBetterAlone(i));
-    if (states_[i].stepped && watches_) steps_.odds(i).LearnGains(GainOfStep(i), GainAlone(i));
+    if (states_[i].stepped && Learns())
+      steps_.odds(i).LearnGains(GainOfStep(i), GainAlone(i),
+                                SweepsInPlace(i) > settings_->max_sweeps);
     if (states_[i].better_alone) continue;
     states_[i].seen = states_[i].seen_with_step;
     after_steps_.Restore(plan, i, blocks);

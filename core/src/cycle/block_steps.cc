@@ -2,6 +2,7 @@
 #include "cycle/block_steps.h"
 
 #include <algorithm>
+#include <limits>
 #include <type_traits>
 
 namespace cairn {
@@ -30,6 +31,16 @@ constexpr double kAnalyse = 300;
 /// Per row and factorisation, where there was none before; that of most scenes is 30 to 60.
 constexpr double kUnknownRow = 40;
 
+/// Reading a problem from its host, packing it, and writing it back, likewise: fitted to Bullet's
+/// worlds.
+constexpr double kSetUpIsland = 4000, kSetUpBody = 40, kSetUpRow = 25, kSetUpJointRow = 160;
+/// A sweep that is accelerated and measured, per line of impulses.
+constexpr double kSweepLine = 30;
+/// Sequential impulses row by row, as Bullet 3.24 makes them: an iteration, and all before and
+/// after; likewise fitted, and the share of that which an island without a step may take.
+constexpr double kScalarSweepRow = 8, kScalarRow = 80, kScalarJointRow = 160;
+constexpr double kShareOfScalar = 0.65;
+
 }  // namespace
 
 void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
@@ -48,7 +59,7 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
   islands_.assign(plan.islands().size(), {});
   islands_now_.assign(plan.islands().size(), {});
   work_.assign(plan.islands().size(), 0);
-  limits_.assign(plan.groups().size(), settings.k_sm);
+  limits_.assign(plan.islands().size(), settings.k_sm);
   if (float_step_ == nullptr) {
     float_step_ = std::make_unique<BlockStep<float>>(frame->target());
     double_step_ = std::make_unique<BlockStep<double>>(frame->target());
@@ -57,23 +68,59 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
 }
 
 void BlockSteps::ReadPlan() {
-  const Plan& plan = frame_->plan();
   plan_number_ = frame_->plan_number();
+  ReadIslands();
+  CountLines();
+  for (int body : frame_->plan().body_of_slot()) {
+    if (body == kWorld) continue;
+    const int island = frame_->plan().island_of_body()[body];
+    set_up_[island] += kSetUpBody;
+    keys_[island] = std::min(keys_[island], IslandMemories::KeyOf(problem_->bodies[body], body));
+  }
+}
+
+void BlockSteps::ReadIslands() {
+  const Plan& plan = frame_->plan();
   in_double_.assign(plan.islands().size(), 0);
   keys_.assign(plan.islands().size(), ~std::uint64_t{0});
+  set_up_.assign(plan.islands().size(), kSetUpIsland);
+  scalar_set_up_.assign(plan.islands().size(), 0);
   for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
     const bool joints =
         std::any_of(block.rows, block.rows + block.row_count,
                     [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
-    for (int lane = 0; lane < block.lanes && joints; ++lane)
-      in_double_[plan.island_of(b, lane)] = 1;
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      const int island = plan.island_of(b, lane);
+      set_up_[island] += block.row_count * (joints ? kSetUpJointRow : kSetUpRow);
+      scalar_set_up_[island] += block.row_count * (joints ? kScalarJointRow : kScalarRow);
+      if (joints) in_double_[island] = 1;
+    }
   }
-  for (int body : plan.body_of_slot()) {
-    if (body == kWorld) continue;
-    std::uint64_t& key = keys_[plan.island_of_body()[body]];
-    key = std::min(key, IslandMemories::KeyOf(problem_->bodies[body], body));
+}
+
+void BlockSteps::CountLines() {
+  const Plan& plan = frame_->plan();
+  lines_.assign(plan.islands().size(), 0);
+  // lanes of one colour and one shape, island by island
+  alike_.assign(plan.islands().size(), {});
+  const auto close = [this](int island) {
+    const Alike& alike = alike_[island];
+    lines_[island] += alike.rows * ((alike.lanes + simd::kLanes - 1) / simd::kLanes);
+  };
+  for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    const Alike here{plan.colour_of(b), block.rows, block.row_count, 0};
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      Alike& alike = alike_[plan.island_of(b, lane)];
+      if (alike.colour != here.colour || alike.shape != here.shape) {
+        close(plan.island_of(b, lane));
+        alike = here;
+      }
+      ++alike.lanes;
+    }
   }
+  for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
 }
 
 IslandMemory* BlockSteps::MemoryOf(int island) {
@@ -152,13 +199,60 @@ double BlockSteps::Price(int group, std::span<const int> islands, int factorisat
 
 template <class T>
 double BlockSteps::PriceOf(int group, int factorisations) {
-  const StepPrices& prices = std::is_same_v<T, double> ? kDoublePrices : kFloatPrices;
   const BlockSystem<T>& system = SystemOf<T>(group);
-  const double lines = frame_->plan().groups()[group].x_lines;
-  const double factorise = prices.line_pass * lines + prices.flops * system.flops() +
-                           prices.entry * system.nonzeros() + prices.body * system.nodes();
-  const double refine = prices.refine * lines + prices.entry * system.nonzeros();
-  return prices.line * lines + factorisations * factorise + (settings_->refinements - 1) * refine;
+  return PriceOf<T>({static_cast<double>(frame_->plan().groups()[group].x_lines), system.flops(),
+                     system.nonzeros(), static_cast<double>(system.nodes())},
+                    factorisations);
+}
+
+template <class T>
+double BlockSteps::PriceOf(const SystemSize& size, int factorisations) const {
+  const StepPrices& prices = std::is_same_v<T, double> ? kDoublePrices : kFloatPrices;
+  const double factorise = prices.line_pass * size.lines + prices.flops * size.flops +
+                           prices.entry * size.nonzeros + prices.body * size.nodes;
+  const double refine = prices.refine * size.lines + prices.entry * size.nonzeros;
+  return prices.line * size.lines + factorisations * factorise +
+         (settings_->refinements - 1) * refine;
+}
+
+double BlockSteps::RestAlone(int island, int sweeps) const {
+  return set_up_[island] + kSweepLine * sweeps * lines_[island];
+}
+
+double BlockSteps::ScalarAlone(int island, int iterations) const {
+  const double rows = frame_->plan().islands()[island].rows;
+  return scalar_set_up_[island] + kScalarSweepRow * iterations * rows;
+}
+
+int BlockSteps::SweepsOfEffort(int island, int iterations) const {
+  const double left = kShareOfScalar * ScalarAlone(island, iterations) - set_up_[island];
+  const double sweeps = left / (kSweepLine * std::max(1, lines_[island]));
+  const double most = std::min(2.0 * iterations, double{std::numeric_limits<int>::max()});
+  return static_cast<int>(std::clamp<double>(sweeps, iterations, most));
+}
+
+double BlockSteps::PriceAlone(int group, int island, int factorisations) {
+  return in_double_[island] != 0 ? PriceAloneOf<double>(group, island, factorisations)
+                                 : PriceAloneOf<float>(group, island, factorisations);
+}
+
+template <class T>
+double BlockSteps::PriceAloneOf(int group, int island, int factorisations) {
+  if (MemoryOf(island)->condenses_joints()) ++factorisations;
+  const PlannedIsland& of = frame_->plan().islands()[island];
+  BlockSystem<T>& system = SystemOf<T>(group);
+  if (!system.Recognise(frame_->plan(), frame_->plan_number(), group)) {
+    const double last = MemoryOf(island)->price_of_row();
+    // mostly there are about as many pairs as bodies
+    const double analysis = 2 * kAnalyse * of.bodies / system.steps_of_analysis();
+    return factorisations * of.rows * (last > 0 ? last : kUnknownRow) + analysis;
+  }
+  const double share = static_cast<double>(of.bodies) / system.nodes();
+  const double price = PriceOf<T>({static_cast<double>(lines_[island]), share * system.flops(),
+                                   share * system.nonzeros(), share * system.nodes()},
+                                  factorisations);
+  MemoryOf(island)->RememberPrice(price / (factorisations * of.rows));
+  return price;
 }
 
 void BlockSteps::Take(int group, std::span<const int> islands) {
@@ -175,17 +269,14 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
     islands_now_[i] = {.taken = chosen(i),
                        .proximal = own.proximal,
                        .proximal_joints = own.proximal_joints,
-                       .condense_joints = own.condense_joints};
+                       .condense_joints = own.condense_joints,
+                       .factorisations = limits_[i]};
   }
-  const StepSettings settings = {.proximal = settings_->proximal,
-                                 .proximal_joints = settings_->proximal_joints,
-                                 .factorisations = limits_[group],
-                                 .refinements = settings_->refinements};
   BlockSystem<T>& system = SystemOf<T>(group);
   meter_->Begin();
   const SpanClock clock(settings_->spans, 0, {SpanKind::kStep, group});
-  const int made =
-      step->Take(frame_->plan(), group, settings, &system, crew_, &frame_->blocks(), islands_now_);
+  const int made = step->Take(frame_->plan(), group, settings_->refinements, &system, crew_,
+                              &frame_->blocks(), islands_now_);
   const double price = PriceOf<T>(group, made);
   meter_->Charge(WorkKind::kStep, price);
   system.CountStep();

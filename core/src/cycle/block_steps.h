@@ -43,8 +43,20 @@ class BlockSteps {
   void Postpone(int island) { MemoryOf(island)->Postpone(); }
   /// What steps and sweeps were seen to gain on the island.
   StepOdds& odds(int island) { return MemoryOf(island)->odds(); }
-  /// How many factorisations the next step of a group may make.
-  void Limit(int group, int factorisations) { limits_[group] = factorisations; }
+  /// What a step with so many factorisations costs on one island, as if it had lanes of its own,
+  /// and what reading, packing, so many sweeps, and writing do. The first is a guess from the last
+  /// frames while the graph is not known.
+  double PriceAlone(int group, int island, int factorisations);
+  double RestAlone(int island, int sweeps) const;
+  /// What sequential impulses row by row cost there, all in all.
+  double ScalarAlone(int island, int iterations) const;
+  /// Sweeps that fit, with all else, into the time that sequential impulses row by row take for so
+  /// many, less a margin; at least those, and at most twice as many.
+  int SweepsOfEffort(int island, int iterations) const;
+  bool HasJoints(int island) const { return in_double_[island] != 0; }
+  /// How many factorisations the next step on an island may make.
+  void Limit(int island, int factorisations) { limits_[island] = factorisations; }
+  int limit(int island) const { return limits_[island]; }
   /// Takes a step on some islands of a group.
   void Take(int group, std::span<const int> islands);
   /// What came of the last one; where it did not succeed, nothing changed.
@@ -63,13 +75,22 @@ class BlockSteps {
   Precisions PrecisionsOf(std::span<const int> islands) const;
   IslandMemory* MemoryOf(int island);
   void ReadPlan();
+  void ReadIslands();
+  void CountLines();
   template <class T>
   BlockSystem<T>& SystemOf(int group);
   /// function(system) for each that the islands need.
   template <class Function>
   void ForSystems(int group, std::span<const int> islands, const Function& function);
+  struct SystemSize {
+    double lines, flops, nonzeros, nodes;
+  };
+  template <class T>
+  double PriceOf(const SystemSize& size, int factorisations) const;
   template <class T>
   double PriceOf(int group, int factorisations);
+  template <class T>
+  double PriceAloneOf(int group, int island, int factorisations);
   template <class T>
   void TakeAs(int group, std::span<const int> islands, BlockStep<T>* step);
 
@@ -82,8 +103,18 @@ class BlockSteps {
   bool asked_ = false;
   bool has_budget_ = false;
 
-  int plan_number_ = -1;             ///< of what follows
-  std::vector<int> limits_;          ///< by group
+  int plan_number_ = -1;               ///< of what follows
+  std::vector<int> limits_;            ///< by island: factorisations
+  std::vector<double> set_up_;         ///< by island: what comes before and after sweeps
+  std::vector<double> scalar_set_up_;  ///< the same row by row
+  std::vector<int> lines_;             ///< by island, as if it had lanes of its own
+  /// Lanes that would share blocks, while lines are counted.
+  struct Alike {
+    int colour = -1;
+    const simd::RowShape* shape = nullptr;
+    int rows = 0, lanes = 0;
+  };
+  std::vector<Alike> alike_;         ///< by island
   std::vector<char> in_double_;      ///< by island
   std::vector<std::uint64_t> keys_;  ///< by island
   std::vector<IslandMemory*> memory_of_island_;

@@ -28,6 +28,11 @@ constexpr double kUnit = 1e-3;  // how far directions of a joint may be from uni
 /// No stiffness about an axis is larger.
 double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
 
+/// At least the length of a vector.
+double Sum(const float (&vector)[3]) {
+  return static_cast<double>(std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]));
+}
+
 /// The three linear parts are unit vectors at right angles to each other.
 bool AreAxes(const Eigen::Matrix3d& linear) {
   return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kUnit;
@@ -73,6 +78,13 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     Memory* const found = Find(IslandMemories::KeyOf(body, i));
     if (found == nullptr || found->inv_mass != body.inv_mass) continue;
     Memory& memory = *found;
+    // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
+    const double most = 2 * (memory.stiffness * body.inv_inertia).norm();
+    memory.held_ratio *= kHold;
+    if (time_step * time_step * std::max(most, memory.held_ratio) <= kThreshold) {
+      memory.held *= kHold;
+      continue;
+    }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inv_inertia);
     if (solver.info() != Eigen::Success) continue;
     const Eigen::Vector3d inv_moments = solver.eigenvalues().cwiseMax(0);
@@ -80,6 +92,7 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * memory.held);
     ShareAmongEqual(inv_moments, &k);
     memory.held = k;
+    memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
 
     const Eigen::Vector3d ratio = time_step * time_step * k.cwiseProduct(inv_moments);
     if (ratio.maxCoeff() <= kThreshold) continue;
@@ -102,10 +115,19 @@ void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
 }
 
 GeometricStiffness::Memory* GeometricStiffness::Find(std::uint64_t key) {
-  const auto found = std::lower_bound(
-      memories_.begin(), memories_.end(), key,
-      [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
-  return found != memories_.end() && found->key == key ? &*found : nullptr;
+  // bodies mostly come in the order of their keys
+  const auto is_next = [&] {
+    return (next_ == memories_.size() || memories_[next_].key >= key) &&
+           (next_ == 0 || memories_[next_ - 1].key < key);
+  };
+  if (next_ > memories_.size() || !is_next()) {
+    const auto found = std::lower_bound(
+        memories_.begin(), memories_.end(), key,
+        [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
+    next_ = static_cast<size_t>(found - memories_.begin());
+  }
+  if (next_ == memories_.size() || memories_[next_].key != key) return nullptr;
+  return &memories_[next_++];
 }
 
 void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
@@ -135,12 +157,43 @@ void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Repor
   for (const Manifold& manifold : problem.manifolds) look(manifold);
 }
 
+void GeometricStiffness::FindPulled(double time_step, const ContactProblem& problem,
+                                    const Impulses& impulses) {
+  const size_t bodies = problem.bodies.size();
+  pull_.assign(bodies, 0);
+  for (const Joint& joint : problem.joints) {
+    // no triple of its rows without bounds has a longer arm or a larger impulse
+    double arm_a = 0, arm_b = 0, impulse = 0;
+    for (int i = 0; i < joint.rows; ++i) {
+      const int k = joint.first_row + i;
+      if (joint.is_bounded(i)) continue;
+      const JointRow& row = problem.joint_rows[k];
+      arm_a += Sum(row.linear_a) * Sum(row.angular_a);
+      arm_b += Sum(row.linear_b) * Sum(row.angular_b);
+      impulse += std::abs(static_cast<double>(impulses.joint_rows[k])) *
+                 std::max(Sum(row.linear_a), Sum(row.linear_b));
+    }
+    if (joint.body_a != kWorld) pull_[joint.body_a] += impulse * arm_a / 2;
+    if (joint.body_b != kWorld) pull_[joint.body_b] += impulse * arm_b / 2;
+  }
+  for (size_t i = 0; i < bodies; ++i) {
+    // Most() of a sum of |f| |r| is at most six times that
+    const double ratio = time_step * 6 * pull_[i] * problem.bodies[i].inv_inertia.trace();
+    const bool known =
+        !memories_.empty() &&
+        Find(IslandMemories::KeyOf(problem.bodies[i], static_cast<int>(i))) != nullptr;
+    // not a number: looked at
+    pull_[i] = known || !(ratio < kRemember) ? 1 : 0;
+  }
+}
+
 void GeometricStiffness::AddJoints(double time_step, const ContactProblem& problem,
                                    const Impulses& impulses) {
   const auto vector = [](const float(&from)[3]) {
     return Eigen::Vector3d(from[0], from[1], from[2]);
   };
   for (const Joint& joint : problem.joints) {
+    if (!IsPulled(joint.body_a) && !IsPulled(joint.body_b)) continue;
     for (int row = 0; row + 3 <= joint.rows;) {
       const JointRow* const rows = &problem.joint_rows[joint.first_row + row];
       Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
@@ -214,6 +267,7 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
   pulled_.clear();
   sums_.clear();
   place_.assign(bodies, -1);
+  FindPulled(time_step, problem, impulses);
   AddJoints(time_step, problem, impulses);
   AddRows(time_step, problem, impulses);
   Remember(time_step, problem.bodies);
@@ -251,9 +305,10 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     memory->seen = true;
   }
   std::erase_if(memories_, [step2](const Memory& memory) {
-    const double most = std::max(Most(memory.stiffness), memory.held.maxCoeff());
-    return !memory.seen || step2 * most * memory.inv_inertia < kRemember / 2;
+    const double most = std::max(Most(memory.stiffness) * memory.inv_inertia, memory.held_ratio);
+    return !memory.seen || step2 * most < kRemember / 2;
   });
+  if (fresh_.empty()) return;
   memories_.insert(memories_.end(), fresh_.begin(), fresh_.end());
   std::sort(memories_.begin(), memories_.end(),
             [](const Memory& a, const Memory& b) { return a.key < b.key; });

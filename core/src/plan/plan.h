@@ -63,6 +63,8 @@ class Plan {
   int island_of(int block, int lane) const { return islands_of(block)[lane]; }
   /// Islands of all lanes, -1 for those that are not used.
   const int* islands_of(int block) const { return &island_of_lane_[block * simd::kLanes]; }
+  /// Blocks of a group come colour by colour.
+  int colour_of(int block) const { return colour_of_block_[block]; }
   /// Problem rows of a pair. @pre it is made of rows
   std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
 

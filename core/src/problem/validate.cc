@@ -270,7 +270,8 @@ Status Validate(const Settings& settings) {
       Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
       Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
       Inside(static_cast<int>(lifted_friction), 0, 1) &&
-      Inside(static_cast<int>(acceleration), 0, 1) && Inside(static_cast<int>(step_policy), 0, 1);
+      Inside(static_cast<int>(acceleration), 0, 1) &&
+      Inside(static_cast<int>(step_policy), 0, static_cast<int>(StepPolicy::kWeighed));
   const bool counts = k_gs >= 1 && Inside(k_sm, 0, kMostFactorisations) && max_sweeps >= 0 &&
                       min_sweeps >= 0 && Inside(threads, 1, kMostThreads) &&
                       Inside(refinements, 1, kMostSolves);

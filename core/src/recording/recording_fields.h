@@ -206,7 +206,7 @@ void Visit(Settings& settings, Io& io) {
   budget = Join(fields);
   io.I32(threads);
   io.Enum(lifted_friction, LiftedFriction::kHold);
-  io.Enum(step_policy, StepPolicy::kAlways);
+  io.Enum(step_policy, StepPolicy::kWeighed);
   io.F64(omega);
   io.F64(proximal);
   io.F64(proximal_joints);

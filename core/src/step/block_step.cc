@@ -27,9 +27,8 @@ enum Phase : char {
 }  // namespace
 
 template <class T>
-int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings,
-                       BlockSystem<T>* system, Crew* crew, BlockData* blocks,
-                       std::span<IslandStep> islands) {
+int BlockStep<T>::Take(const Plan& plan, int group, int refinements, BlockSystem<T>* system,
+                       Crew* crew, BlockData* blocks, std::span<IslandStep> islands) {
   const simd::FlushDenormals flush;
   plan_ = &plan;
   group_ = &plan.groups()[group];
@@ -41,9 +40,9 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
 
   // those from whose sets rows had to be removed, again; others are done when they are refined
   int made = 0;
-  for (; made < settings.factorisations && Any(kOpen); ++made) {
+  for (; CloseAfter(made), Any(kOpen); ++made) {
     WorkOn(kOpen);
-    ForBlocks([](const BlockLaw<T>& law) { law.FindWeights(); });
+    ForBlocks(laws_.find_weights);
     const bool factorised = system->Factorise(plan, *group_, *blocks, weights_, crew);
     ForIslands([&](int island) {
       if (phases_[island] != kOpen) return;
@@ -55,9 +54,9 @@ int BlockStep<T>::Take(const Plan& plan, int group, const StepSettings& settings
     if (made > 0) CopyTaken(start_, &x_);
     Refine();
     Remove();
-    RefineWhileSetHolds(settings.refinements);
+    RefineWhileSetHolds(refinements);
   }
-  if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Project(); });
+  if (bounded_) ForBlocks(laws_.project);
   FindJointSpeeds(&StepResult::solved_joint_speed);
   if (CondenseJoints(crew)) ++made;
   Write();
@@ -74,13 +73,13 @@ void BlockStep<T>::Predict() {
   });
   if (!bounded_) {
     // no row can leave the set
-    std::fill(sides_.begin(), sides_.end(), SideLine{});
+    std::fill(sides_.begin(), sides_.end(), simd::SideLine{});
     return;
   }
   start_ = x_;
   ReadVelocities();
   FindSlack();
-  ForBlocks([](const BlockLaw<T>& law) { law.Predict(); });
+  ForBlocks(laws_.predict);
 }
 
 template <class T>
@@ -112,6 +111,14 @@ bool BlockStep<T>::Any(char phase) {
 }
 
 template <class T>
+void BlockStep<T>::CloseAfter(int factorisations) {
+  ForIslands([&](int island) {
+    const bool most = factorisations >= islands_[island].factorisations;
+    if (phases_[island] == kOpen && most) phases_[island] = kDone;
+  });
+}
+
+template <class T>
 void BlockStep<T>::WorkOn(char phase) {
   for (int b = 0; b < group_->blocks; ++b) {
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
@@ -125,7 +132,7 @@ void BlockStep<T>::WorkOn(char phase) {
 template <class T>
 template <class Lines>
 void BlockStep<T>::CopyTaken(const Lines& from, Lines* to) {
-  ForBlocks([&](const BlockLaw<T>& law) {
+  ForBlocks([&](const simd::PairLaw<T>& law) {
     const auto first = static_cast<size_t>(law.x - x_.data());
     for (int i = 0; i < law.block.row_count; ++i) {
       for (int l = 0; l < kLanes; ++l) {
@@ -143,7 +150,7 @@ void BlockStep<T>::ForBlocks(const Function& function) {
 }
 
 template <class T>
-BlockLaw<T> BlockStep<T>::LawOf(int b) {
+simd::PairLaw<T> BlockStep<T>::LawOf(int b) {
   const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
   const size_t x = block.x - static_cast<size_t>(group_->first_x);
   return {.block = block,
@@ -152,6 +159,7 @@ BlockLaw<T> BlockStep<T>::LawOf(int b) {
           .x = x_.data() + x,
           .slack = slack_.data() + x,
           .weights = weights_.data() + x,
+          .product = product_.data() + x,
           .sides = sides_.data() + x};
 }
 
@@ -176,7 +184,7 @@ void BlockStep<T>::Read() {
   FindTolerances();
   lanes_.resize(group_->blocks);
   for (int b = 0; b < group_->blocks; ++b) {
-    LaneSettings<T>& lanes = lanes_[b];
+    simd::LaneSettings<T>& lanes = lanes_[b];
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
     for (int l = 0; l < kLanes; ++l) {
       const int island = l < block.lanes ? plan_->island_of(group_->first_block + b, l) : -1;
@@ -211,7 +219,7 @@ void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T
   std::fill(v->begin(), v->end(), T{0});
   LineT of_pair[simd::kPairLines];
   for (int b = 0; b < group_->blocks; ++b) {
-    const BlockLaw<T> law = LawOf(b);
+    const simd::PairLaw<T> law = LawOf(b);
     const simd::PairBlock& block = law.block;
     products_.multiply_transposed(
         block, law.lines, y.data() + (block.x - static_cast<size_t>(group_->first_x)), of_pair);
@@ -230,7 +238,7 @@ template <class T>
 void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
   LineT of_pair[simd::kPairLines] = {};
   for (int b = 0; b < group_->blocks; ++b) {
-    const BlockLaw<T> law = LawOf(b);
+    const simd::PairLaw<T> law = LawOf(b);
     const simd::PairBlock& block = law.block;
     const auto get = [&](int slot, int lane, LineT* lines) {
       const int node = system_->node_of_slot(slot);
@@ -248,28 +256,20 @@ void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
 template <class T>
 void BlockStep<T>::FindSlack() {
   Multiply(u_, &slack_);
-  ForBlocks([](const BlockLaw<T>& law) { law.FindSlack(); });
+  ForBlocks(laws_.find_slack);
 }
 
 /// One solve for the free rows:  H du = G_F' W r,  x_F += W (r - G_F du)  with  r = -w_F.
 template <class T>
 void BlockStep<T>::Refine() {
-  if (bounded_) ForBlocks([](const BlockLaw<T>& law) { law.Fix(); });
+  if (bounded_) ForBlocks(laws_.fix);
   MultiplyTransposed(x_, &u_);
   FindSlack();
-  for (size_t i = 0; i < x_.size(); ++i) {
-    for (int l = 0; l < kLanes; ++l) {
-      product_[i].lane[l] = -(weights_[i].lane[l] * slack_[i].lane[l]);
-    }
-  }
+  ForBlocks(laws_.weigh);
   MultiplyTransposed(product_, &du_);
   system_->Solve(du_);
   Multiply(du_, &product_);
-  for (size_t i = 0; i < x_.size(); ++i) {
-    for (int l = 0; l < kLanes; ++l) {
-      x_[i].lane[l] -= weights_[i].lane[l] * (slack_[i].lane[l] + product_[i].lane[l]);
-    }
-  }
+  ForBlocks(laws_.advance);
 }
 
 /// Solves again with the same factor while the predicted set holds: each time the error of a mode
@@ -279,7 +279,7 @@ template <class T>
 void BlockStep<T>::RefineWhileSetHolds(int refinements) {
   for (int k = 1; k < refinements && Any(kRefined); ++k) {
     WorkOn(kRefined);
-    ForBlocks([](const BlockLaw<T>& law) { law.FindWeights(); });
+    ForBlocks(laws_.find_weights);
     before_ = x_;
     sides_before_ = sides_;
     Refine();
@@ -305,7 +305,7 @@ template <class T>
 void BlockStep<T>::Remove() {
   if (!bounded_) return;
   for (int b = 0; b < group_->blocks; ++b) {
-    const std::uint32_t removed = LawOf(b).RemoveViolated();
+    const std::uint32_t removed = laws_.remove_violated(LawOf(b));
     for (int l = 0; l < kLanes && removed != 0; ++l) {
       if ((removed >> l & 1) == 0) continue;
       phases_[plan_->island_of(group_->first_block + b, l)] = kOpen;
@@ -315,8 +315,7 @@ void BlockStep<T>::Remove() {
 
 template <class T>
 void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
-  ForBlocks(
-      [this](const BlockLaw<T>& law) { law.CopyWeighted(product_.data() + (law.x - x_.data())); });
+  ForBlocks(laws_.copy_weighted);
   MultiplyTransposed(product_, out);
 }
 
@@ -325,7 +324,7 @@ void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
 template <class T>
 void BlockStep<T>::FindSmallest() {
   MultiplyWeighted(&wanted_);
-  ForBlocks([](const BlockLaw<T>& law) { law.ClearWeighted(); });
+  ForBlocks(laws_.clear_weighted);
   for (int k = 0; k < kCondensingSolves; ++k) {
     MultiplyWeighted(&u_);
     for (size_t i = 0; i < u_.size(); ++i) u_[i] = wanted_[i] - u_[i];
@@ -358,7 +357,7 @@ bool BlockStep<T>::CondenseJoints(Crew* crew) {
   });
   if (any) {
     WorkOn(kOpen);
-    ForBlocks([](const BlockLaw<T>& law) { law.FindJointWeights(); });
+    ForBlocks(laws_.find_joint_weights);
     before_ = x_;
     if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew)) FindSmallest();
   }
@@ -381,7 +380,7 @@ template <class T>
 void BlockStep<T>::FindJointSpeeds(double StepResult::*of) {
   for (int b = 0; b < group_->blocks; ++b) {
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
-    const LineT speeds = LawOf(b).FindJointSpeeds();
+    const LineT speeds = laws_.find_joint_speeds(LawOf(b));
     for (int l = 0; l < block.lanes; ++l) {
       double& speed = islands_[plan_->island_of(group_->first_block + b, l)].result.*of;
       speed = std::max(speed, static_cast<double>(speeds.lane[l]));
@@ -398,7 +397,7 @@ void BlockStep<T>::Write() {
   MultiplyTransposed(x_, &u_);
 
   for (int b = 0; b < group_->blocks; ++b) {
-    const BlockLaw<T> law = LawOf(b);
+    const simd::PairLaw<T> law = LawOf(b);
     const simd::PairBlock& block = law.block;
     const auto write = [&](int slot) {
       const int node = system_->node_of_slot(slot);

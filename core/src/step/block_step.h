@@ -6,8 +6,8 @@
 
 #include "pack/block_pack.h"
 #include "plan/plan.h"
+#include "simd/pair_law.h"
 #include "simd/pair_products.h"
-#include "step/block_law.h"
 #include "step/block_system.h"
 #include "step/step_settings.h"
 
@@ -18,6 +18,7 @@ struct IslandStep {
   bool taken = false;                        ///< the island takes it; for others nothing changes
   double proximal = 0, proximal_joints = 0;  ///< see StepSettings
   bool condense_joints = false;              ///< likewise
+  int factorisations = 1;                    ///< at most
   StepResult result = {};                    ///< out
 };
 
@@ -26,14 +27,15 @@ struct IslandStep {
 template <class T>
 class BlockStep {
  public:
-  explicit BlockStep(simd::Target target) : products_(simd::PairProductsFor<T>(target)) {}
+  explicit BlockStep(simd::Target target)
+      : products_(simd::PairProductsFor<T>(target)), laws_(simd::PairLawKernelsFor<T>(target)) {}
 
-  /// @p islands: one for each of the plan. Of the settings, those of IslandStep are not
-  /// used. An island whose system could not be factorised stays as it is. Returns how many
-  /// factorisations were made in all.
+  /// @p refinements: StepSettings::refinements. @p islands: one for each of the plan. An island
+  /// whose system could not be factorised stays as it is. Returns how many factorisations were made
+  /// in all.
   /// @pre system->IsPreparedFor() this group
-  int Take(const Plan& plan, int group, const StepSettings& settings, BlockSystem<T>* system,
-           Crew* crew, BlockData* blocks, std::span<IslandStep> islands);
+  int Take(const Plan& plan, int group, int refinements, BlockSystem<T>* system, Crew* crew,
+           BlockData* blocks, std::span<IslandStep> islands);
 
  private:
   using LineT = simd::LineOf<T>;
@@ -59,6 +61,8 @@ class BlockStep {
   template <class Function>
   void ForIslands(const Function& function);
   bool Any(char phase);
+  /// Islands that have had all of their factorisations are done.
+  void CloseAfter(int factorisations);
   /// Work is on islands in this phase from now on.
   void WorkOn(char phase);
   /// to := from, in lanes that are worked on.
@@ -68,13 +72,14 @@ class BlockStep {
   /// function(law) for every block of the group
   template <class Function>
   void ForBlocks(const Function& function);
-  BlockLaw<T> LawOf(int block);
+  simd::PairLaw<T> LawOf(int block);
   /// v := G' y, by node.
   void MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v);
   /// y := G v
   void Multiply(const std::vector<T>& v, std::vector<LineT>* y);
 
   const simd::PairProducts<T>& products_;
+  const simd::PairLawKernels<T>& laws_;
   const Plan* plan_ = nullptr;
   const Group* group_ = nullptr;
   BlockData* blocks_ = nullptr;
@@ -83,9 +88,9 @@ class BlockStep {
   bool bounded_ = false;                      ///< some row of the group has bounds
   std::vector<char> phases_, phases_before_;  ///< by island
 
-  std::vector<LaneSettings<T>> lanes_;  ///< by block
+  std::vector<simd::LaneSettings<T>> lanes_;  ///< by block
   std::vector<LineT> x_, start_, before_, slack_, weights_, product_;
-  std::vector<SideLine> sides_, sides_before_;
+  std::vector<simd::SideLine> sides_, sides_before_;
   std::vector<T> u_, du_, wanted_;  ///< six numbers a node
   std::vector<double> sums_, counts_;
 };

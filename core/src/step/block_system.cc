@@ -12,8 +12,15 @@ using simd::kLanes;
 /// A graph that was analysed for more pairs than there are is kept while there are this many of
 /// them: what it wastes is less than a new analysis costs.
 constexpr double kLeastShareOfPairs = 0.8;
+/// Or no more than so many have gone, which small graphs do not notice.
+constexpr double kFewPairs = 8;
 /// Weight of the last analysis in the mean of steps that one serves.
 constexpr double kNewestAnalysis = 0.5;
+
+/// Whether a graph of so many pairs serves for those that there are now.
+bool Serves(double pairs, double now) {
+  return kLeastShareOfPairs * pairs <= now || pairs - now <= kFewPairs;
+}
 
 }  // namespace
 
@@ -93,7 +100,7 @@ void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
   all_pairs_.clear();
   std::set_union(pairs_.begin(), pairs_.end(), known_pairs_.begin(), known_pairs_.end(),
                  std::back_inserter(all_pairs_));
-  if (kLeastShareOfPairs * static_cast<double>(all_pairs_.size()) <= now) pairs_.swap(all_pairs_);
+  if (Serves(static_cast<double>(all_pairs_.size()), now)) pairs_.swap(all_pairs_);
 }
 
 template <class T>
@@ -110,7 +117,7 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
     }
     at += kLanes;
   }
-  return lanes_ >= kLeastShareOfPairs * static_cast<double>(pairs_.size());
+  return Serves(static_cast<double>(pairs_.size()), lanes_);
 }
 
 template <class T>

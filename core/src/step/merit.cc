@@ -21,10 +21,6 @@ double ScaleOf(double largest) {
   return scalable ? std::ldexp(1.0, kSumBits - 1 - std::ilogb(largest)) : 1;
 }
 
-double RoundedSigned(double number) {
-  return number < 0 ? -simd::Rounded(-number) : simd::Rounded(number);
-}
-
 /// Where 0 is outside the bounds of a row, the bit of its lane.
 std::uint32_t WithoutZero(const simd::RowShape& row, const simd::Line* bounds) {
   if (row.bound != simd::RowBound::kOwn) return 0;
@@ -36,25 +32,11 @@ std::uint32_t WithoutZero(const simd::RowShape& row, const simd::Line* bounds) {
   return without;
 }
 
-/// b'x and x'E x of a block, for each lane. Returns WithoutZero() of its rows.
-std::uint32_t AddRows(const simd::PairBlock& block, const BlockData& data, double* gain,
-                      double* square) {
+/// WithoutZero() of all rows of a block.
+std::uint32_t WithoutZero(const simd::PairBlock& block, const BlockData& data) {
   std::uint32_t without = 0;
   const simd::Line* line = data.data.data() + block.data + simd::PairLines(block.form);
-  const simd::Line* const x = data.x.data() + block.x;
-  for (int i = 0; i < block.row_count; ++i) {
-    const simd::RowShape& row = block.rows[i];
-    const simd::Line& target = line[simd::JacobianLines(block.form)];
-    for (int l = 0; l < kLanes; ++l) {
-      gain[l] += static_cast<double>(target.lane[l]) * static_cast<double>(x[i].lane[l]);
-    }
-    if (row.soft) {
-      const simd::Line& soft = line[simd::JacobianLines(block.form) + 2];
-      for (int l = 0; l < kLanes; ++l) {
-        const double impulse = x[i].lane[l];
-        square[l] += static_cast<double>(soft.lane[l]) * impulse * impulse;
-      }
-    }
+  for (const simd::RowShape& row : std::span(block.rows, block.row_count)) {
     const int laws = 2 + (row.soft ? 1 : 0) + (row.relaxed ? 1 : 0);
     without |= WithoutZero(row, line + simd::JacobianLines(block.form) + laws);
     line += simd::RowLines(block.form, row);
@@ -62,14 +44,8 @@ std::uint32_t AddRows(const simd::PairBlock& block, const BlockData& data, doubl
   return without;
 }
 
-double SquareOf(const simd::BodyLane& body) {
-  double sum = 0;
-  for (const float u : body.u) sum += static_cast<double>(u) * static_cast<double>(u);
-  return sum;
-}
-
 template <class T>
-void Scale(T factor, T* number) {
+void Multiply(T factor, T* number) {
   *number = factor == 0 ? 0 : factor * *number;
 }
 
@@ -93,7 +69,7 @@ void IslandMerits::Find(BlockFrame* frame, std::span<const GroupSweeps> groups) 
   const Plan& plan = frame->plan();
   if (merits_.size() < plan.islands().size()) {
     merits_.resize(plan.islands().size());
-    largest_.resize(plan.islands().size());
+    scales_.resize(plan.islands().size());
   }
   for (size_t g = 0; g < groups.size(); ++g) {
     if (groups[g].active) FindOfGroup(frame, plan.groups()[g]);
@@ -103,45 +79,75 @@ void IslandMerits::Find(BlockFrame* frame, std::span<const GroupSweeps> groups) 
 void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
   const Plan& plan = frame->plan();
   const BlockData& data = frame->blocks();
-  parts_.clear();
-  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    const simd::PairBlock& block = plan.blocks()[b];
-    double gain[kLanes] = {}, square[kLanes] = {};
-    const std::uint32_t without = AddRows(block, data, gain, square);
-    for (int l = 0; l < block.lanes; ++l) {
-      const bool may_be_none = (without >> l & 1) == 0;
-      parts_.push_back({plan.island_of(b, l), {square[l], gain[l], may_be_none}});
+  const simd::LaneKernels& kernels = frame->lane_kernels();
+  const auto lanes = static_cast<size_t>(group.blocks) * kLanes;
+  if (gains_.size() < lanes) gains_.resize(lanes);
+  const size_t squares = lanes + static_cast<size_t>(group.slots);
+  if (squares_.size() < squares) squares_.resize(squares);
+  for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
+    merits_[i] = {};
+  }
+  simd::LaneGains of_block;
+  for (int b = 0; b < group.blocks; ++b) {
+    const simd::PairBlock& block = plan.blocks()[group.first_block + b];
+    kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x, &of_block);
+    std::copy_n(of_block.gain, kLanes, gains_.data() + b * kLanes);
+    std::copy_n(of_block.square, kLanes, squares_.data() + b * kLanes);
+    const std::uint32_t without = WithoutZero(block, data);
+    for (int l = 0; l < block.lanes && without != 0; ++l) {
+      if ((without >> l & 1) == 0) continue;
+      merits_[plan.island_of(group.first_block + b, l)].may_be_none = false;
     }
   }
-  for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
-    const int body = plan.body_of_slot()[slot];
-    if (body == kWorld) continue;
-    parts_.push_back({plan.island_of_body()[body], {.square = SquareOf(data.bodies[slot])}});
+  kernels.find_squares(data.bodies.data() + group.first_slot, group.slots, squares_.data() + lanes);
+  if (group.islands == 1) {
+    AddWhole(kernels, lanes, squares, plan.islands_of_groups()[group.first_island]);
+  } else {
+    AddShared(plan, group);
   }
-  Add(plan, group);
 }
 
-void IslandMerits::Add(const Plan& plan, const Group& group) {
+void IslandMerits::AddWhole(const simd::LaneKernels& kernels, size_t gains, size_t squares,
+                            int island) {
+  const auto sum = [&](const std::vector<double>& numbers, size_t size) {
+    const int count = static_cast<int>(size);
+    const double scale = ScaleOf(kernels.find_most(numbers.data(), count));
+    return kernels.add_rounded(numbers.data(), count, scale) / scale;
+  };
+  merits_[island].gain = sum(gains_, gains);
+  merits_[island].square = sum(squares_, squares);
+}
+
+void IslandMerits::AddShared(const Plan& plan, const Group& group) {
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
-  for (int i : islands) merits_[i] = largest_[i] = {};
-  for (const Part& part : parts_) {
-    Merit& largest = largest_[part.island];
-    largest.square = std::max(largest.square, part.merit.square);
-    largest.gain = std::max(largest.gain, std::abs(part.merit.gain));
-  }
+  const size_t lanes = static_cast<size_t>(group.blocks) * kLanes;
+  // add(island, gain, square) for all lanes and bodies
+  const auto for_parts = [&](const auto& add) {
+    for (int b = 0; b < group.blocks; ++b) {
+      const int* const of_lane = plan.islands_of(group.first_block + b);
+      const int used = plan.blocks()[group.first_block + b].lanes;
+      const size_t first = static_cast<size_t>(b) * kLanes;
+      for (int l = 0; l < used; ++l) add(of_lane[l], gains_[first + l], squares_[first + l]);
+    }
+    for (int slot = 0; slot < group.slots; ++slot) {
+      const int body = plan.body_of_slot()[group.first_slot + slot];
+      if (body != kWorld) add(plan.island_of_body()[body], 0.0, squares_[lanes + slot]);
+    }
+  };
+  for (int i : islands) scales_[i] = {};
+  for_parts([this](int island, double gain, double square) {
+    Scale& most = scales_[island];
+    most.gain = std::max(most.gain, std::abs(gain));
+    most.square = std::max(most.square, square);
+  });
+  for (int i : islands) scales_[i] = {ScaleOf(scales_[i].gain), ScaleOf(scales_[i].square)};
+  for_parts([this](int island, double gain, double square) {
+    merits_[island].gain += simd::RoundedSigned(gain * scales_[island].gain);
+    merits_[island].square += simd::RoundedSigned(square * scales_[island].square);
+  });
   for (int i : islands) {
-    largest_[i] = {.square = ScaleOf(largest_[i].square), .gain = ScaleOf(largest_[i].gain)};
-  }
-  for (const Part& part : parts_) {
-    const Merit& scale = largest_[part.island];
-    Merit& sum = merits_[part.island];
-    sum.square += simd::Rounded(part.merit.square * scale.square);
-    sum.gain += RoundedSigned(part.merit.gain * scale.gain);
-    sum.may_be_none = sum.may_be_none && part.merit.may_be_none;
-  }
-  for (int i : islands) {
-    merits_[i].square /= largest_[i].square;
-    merits_[i].gain /= largest_[i].gain;
+    merits_[i].gain /= scales_[i].gain;
+    merits_[i].square /= scales_[i].square;
   }
 }
 
@@ -152,13 +158,13 @@ void ScaleIsland(const Plan& plan, int island, double factor, BlockData* blocks)
     const simd::PairBlock& block = plan.blocks()[b];
     for (int l = 0; l < block.lanes; ++l) {
       if (plan.island_of(b, l) != island) continue;
-      for (int k = 0; k < block.row_count; ++k) Scale(scale, &blocks->x[block.x + k].lane[l]);
+      for (int k = 0; k < block.row_count; ++k) Multiply(scale, &blocks->x[block.x + k].lane[l]);
     }
   }
   for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
     const int body = plan.body_of_slot()[slot];
     if (body == kWorld || plan.island_of_body()[body] != island) continue;
-    for (float& u : blocks->bodies[slot].u) Scale(scale, &u);
+    for (float& u : blocks->bodies[slot].u) Multiply(scale, &u);
   }
 }
 

@@ -61,18 +61,20 @@ class IslandMerits {
 
  private:
   void FindOfGroup(BlockFrame* frame, const Group& group);
-  /// Sums of numbers that do not depend on their order.
-  void Add(const Plan& plan, const Group& group);
+  // Sums of numbers that do not depend on their order. Of a group of one island, and of several.
+  void AddWhole(const simd::LaneKernels& kernels, size_t gains, size_t squares, int island);
+  void AddShared(const Plan& plan, const Group& group);
 
-  std::vector<Merit> merits_, largest_;
-  struct Part {
-    int island;
-    Merit merit;
+  std::vector<Merit> merits_;
+  /// Bring the largest number of a sum to so many bits, by island.
+  struct Scale {
+    double gain = 0, square = 0;
   };
-  std::vector<Part> parts_;
+  std::vector<Scale> scales_;
+  std::vector<double> gains_, squares_;  ///< of a group: by lane, squares of bodies after that
 };
 
-/// ScaleState() of an island in blocks.
+/// Multiplies impulses and velocity changes of an island; 0 leaves nothing of what is not finite.
 void ScaleIsland(const Plan& plan, int island, double factor, BlockData* blocks);
 
 }  // namespace cairn

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include "simd/pair_law.h"
 
 namespace cairn {
 
-/// Where a row is predicted to end: strictly between its bounds, or at one of them. A friction row
-/// at a bound slides, and the bound follows the impulse of its parent.
-enum class RowSide : std::uint8_t { kFree, kLo, kHi };
+using simd::RowSide;
 
 }  // namespace cairn

@@ -16,6 +16,15 @@ constexpr double kFade = 0.01;
 constexpr double kLater = 0.5;
 /// Frames after which the power of sweeps is measured again, in one without steps if need be.
 constexpr int kMeasureAgain = 64;
+/// By how much more than five sweeps a step has to gain: ten sweeps gain less than twice as much,
+/// twenty less than four times. Steps go on a while longer than they begin.
+constexpr double kPays = 3, kPaysForMore = 4, kGoesOn = 0.65;
+/// Trials in a row that steps have to fail where they gained more than so many times what sweeps
+/// do.
+constexpr int kDoubts = 4;
+constexpr double kMuch = 6;
+/// Frames between two trials.
+constexpr int kLeastPause = 2, kMostPause = 16;
 constexpr double kLeastPower = 0.05, kMostPower = 20;
 /// The same of logarithms: what is more is rounding.
 constexpr double kMostCut = 8;
@@ -49,6 +58,25 @@ void StepOdds::LearnStep(int steps, double share) {
   Learn(std::clamp(-std::log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
 }
 
+void StepOdds::LearnGains(double with_step, double alone, bool more) {
+  carries_ = with_step > kCarries * alone;
+  const double pays = more ? kPaysForMore : kPays;
+  const bool went_on = pays_ && trial_pause_ > 0;
+  const double ratio = alone > 0 ? with_step / alone : with_step > 0 ? kMuch * kMuch : 0;
+  Learn(std::log(std::clamp(ratio, 1 / kMuch, kMuch * kMuch)), &gain_known_, &gain_);
+  if (went_on && with_step <= kGoesOn * pays * alone) {
+    // where steps carry much, those that come and go do harm: not on one doubt
+    pays_ = ++doubts_ < kDoubts && gain_ > std::log(kMuch);
+    trial_pause_ = pays_ ? 1 : kLeastPause;
+  } else {
+    pays_ = went_on || with_step > pays * alone;
+    doubts_ = 0;
+    // what is piled up now, or begins to sag, asks for steps soon
+    trial_pause_ = pays_ ? kMostPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
+  }
+  trial_age_ = 0;
+}
+
 void StepOdds::Expect(double cut) {
   expected_ = cut;
   if (!first_.known) first_.cut = expected_;
@@ -57,6 +85,8 @@ void StepOdds::Expect(double cut) {
 
 void StepOdds::EndFrame(bool stepped) {
   ++age_;
+  ++trial_age_;
+  stepped_ = stepped;
   if (stepped) return;
   if (stale()) age_ = 0;
   first_.cut += kFade * (expected_ - first_.cut);

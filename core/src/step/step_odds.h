@@ -22,7 +22,15 @@ class StepOdds {
   void LearnStep(int steps, double share);
   /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
   /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
-  void LearnGains(double with_step, double alone) { carries_ = with_step > kCarries * alone; }
+  /// @param more  sweeps in place of the step would go on for longer than those that were tried
+  void LearnGains(double with_step, double alone, bool more);
+  /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
+  /// place do, or that is not known yet.
+  bool pays() const { return pays_; }
+  /// There was one in the last frame.
+  bool stepped() const { return stepped_; }
+  /// That is not known, or was not looked at for a while.
+  bool wants_trial() const { return trial_age_ >= trial_pause_; }
   /// The last time that both were tried, sweeps came nowhere near: one step is worth its price.
   bool carries() const { return carries_; }
   /// What the first step of a frame is thought to do before one was measured.
@@ -52,6 +60,12 @@ class StepOdds {
   static constexpr double kCarries = 2;
 
   bool carries_ = false;
+  bool pays_ = true;
+  bool stepped_ = false;
+  bool gain_known_ = false;
+  double gain_ = 0;  ///< logarithm of what a step gains over that of as many sweeps, a mean
+  int doubts_ = 0;
+  int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again
   double power_ = kExpectedPower;
   bool power_known_ = false;
   int age_ = 0;  ///< frames since the power was measured

@@ -44,9 +44,11 @@ struct Blocks {
   void Take(const StepSettings& settings = kSettings) {
     BlockSystem<T> system(frame.target());
     BlockStep<T> step(frame.target());
+    for (IslandStep& island : islands) island.factorisations = settings.factorisations;
     for (int group = 0; group < static_cast<int>(frame.plan().groups().size()); ++group) {
       if (!system.Recognise(frame.plan(), 1, group)) system.Analyse(frame.plan());
-      step.Take(frame.plan(), group, settings, &system, &crew, &frame.blocks(), islands);
+      step.Take(frame.plan(), group, settings.refinements, &system, &crew, &frame.blocks(),
+                islands);
     }
     frame.End(scene.problem(), &crew, {.rows = x}, v);
   }

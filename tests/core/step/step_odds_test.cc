@@ -75,6 +75,46 @@ TEST(StepOdds, WantAFrameWithoutStepsNowAndThen) {
   EXPECT_FALSE(odds.stale());
 }
 
+TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
+  StepOdds odds;
+  EXPECT_TRUE(odds.pays());
+  EXPECT_TRUE(odds.wants_trial());
+  int last = 0;
+  for (int trial = 0; trial < 5; ++trial) {
+    odds.LearnGains(1, 1, false);
+    EXPECT_FALSE(odds.pays());
+    int frames = 0;
+    for (; !odds.wants_trial(); ++frames) odds.EndFrame(false);
+    EXPECT_GE(frames, last) << "ever later";
+    EXPECT_LE(frames, 16);
+    last = frames;
+  }
+  EXPECT_EQ(last, 16);
+}
+
+TEST(StepOdds, PayWhereSweepsInTheirPlaceGainLess) {
+  StepOdds odds;
+  odds.LearnGains(3.5, 1, true);
+  EXPECT_FALSE(odds.pays()) << "twice as many sweeps could gain that, too";
+  odds.LearnGains(3.5, 1, false);
+  EXPECT_TRUE(odds.pays());
+  odds.LearnGains(2.5, 1, false);
+  EXPECT_TRUE(odds.pays()) << "steps that come and go do harm";
+  odds.LearnGains(1, 1, false);
+  EXPECT_FALSE(odds.pays());
+  odds.LearnGains(1, -1, false);
+  EXPECT_TRUE(odds.pays()) << "sweeps alone do harm";
+}
+
+TEST(StepOdds, OutliveADoubtWhereTheyCarriedMuch) {
+  StepOdds odds;
+  for (int trial = 0; trial < 5; ++trial) odds.LearnGains(50, 1, false);
+  odds.LearnGains(1, 1, false);
+  EXPECT_TRUE(odds.pays());
+  for (int doubt = 0; doubt < 3; ++doubt) odds.LearnGains(0, 1, false);
+  EXPECT_FALSE(odds.pays());
+}
+
 // From 3 to 30 sweeps, by hand.
 TEST(StepOdds, FindThePowerOfSweeps) {
   EXPECT_NEAR(StepOdds::PowerOf(3, 30, 0.01), 2, 1e-12);

@@ -34,10 +34,15 @@ struct SubstepTimes {
 /// Cairn builds the rows, solves and writes back; with Mode::kReference Bullet sets up the rows and
 /// writes back the results. All islands of a substep are solved as one problem, with one budget.
 ///
-/// Without a budget (the default) each substep makes btContactSolverInfo::m_numIterations sweeps,
-/// with a subspace step among them where it is predicted to pay; Settings::max_sweeps and
-/// Settings::tolerance are not used, m_leastSquaresResidualThreshold is, and per-joint iteration
-/// overrides are honoured. With Settings::k_sm = 0 or Method::kPgs and Mode::kReference this is
+/// Without a budget (the default) btContactSolverInfo::m_numIterations says how hard to try. Each
+/// island makes that many accelerated sweeps, and a subspace step among them where it does more
+/// than sweeps in its place would and costs no more than all else about the island
+/// (StepPolicy::kWeighed, in place of the default kMeasured). Islands without a step go on for up
+/// to twice as many sweeps, as long as all of it is predicted to stay below two thirds of what
+/// Bullet's iterations take. An island is done when no row is further than 1e-4 m/s or rad/s from
+/// its law. All of that is counted, never timed. Settings::max_sweeps and Settings::tolerance are
+/// not used, m_leastSquaresResidualThreshold is, and per-joint iteration overrides are honoured.
+/// With Settings::k_sm = 0 or Method::kPgs and Mode::kReference this is
 /// Bullet's own iteration, down to friction that keeps its impulse when its contact lifts off
 /// (LiftedFriction::kHold).
 ///
