@@ -25,7 +25,8 @@ Work CairnContestant::work() const {
   return {.iterations = report.sweeps,
           .steps_accepted = report.steps_accepted,
           .steps_restored = report.steps_restored,
-          .factorisations = report.factorisations};
+          .factorisations = report.factorisations,
+          .guarded = report.guarded};
 }
 
 std::string CairnContestant::refusal() const {

@@ -28,6 +28,7 @@ struct Effort {
 struct Work {
   int iterations = 0;
   int steps_accepted = 0, steps_restored = 0, factorisations = 0;
+  int guarded = 0;  ///< Islands on which something was guarded; see cairn::Guards.
 };
 
 /// A solver under test, of any make.

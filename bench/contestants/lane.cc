@@ -126,6 +126,7 @@ void Lane::Record(std::chrono::nanoseconds time) {
                             .steps_accepted = work.steps_accepted,
                             .steps_restored = work.steps_restored,
                             .factorisations = work.factorisations,
+                            .guarded = work.guarded,
                             .rows = observed_.rows / parts_,
                             .islands = observed_.islands / parts_,
                             .facts = {}});

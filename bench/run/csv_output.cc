@@ -22,15 +22,16 @@ double VelocityError(const SceneResult& scene, const SolverResult& solver, int f
 std::string ToCsv(const RunResult& run) {
   std::string text =
       "scene,size,seed,solver,frame,time_ms,iterations,residual_m_s,velocity_error_m_s,"
-      "steps_accepted,steps_restored,factorisations\n";
+      "steps_accepted,steps_restored,factorisations,guarded\n";
   for (const SceneResult& scene : run.scenes) {
     for (const SolverResult& solver : scene.solvers) {
       for (int i = 0; i < static_cast<int>(solver.frames.size()); ++i) {
         const Frame& frame = solver.frames[i];
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, scene.size,
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, scene.size,
                             scene.seed, solver.label, i, Cell(frame.time), frame.iterations,
                             Cell(frame.residual), Cell(VelocityError(scene, solver, i)),
-                            frame.steps_accepted, frame.steps_restored, frame.factorisations);
+                            frame.steps_accepted, frame.steps_restored, frame.factorisations,
+                            frame.guarded);
       }
     }
   }

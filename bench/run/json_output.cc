@@ -34,7 +34,8 @@ Json ToJson(const Summary& s) {
           {"velocity_error_max_m_s", Number(s.error_max)},
           {"steps_accepted", s.steps_accepted},
           {"steps_restored", s.steps_restored},
-          {"factorisations", s.factorisations}};
+          {"factorisations", s.factorisations},
+          {"guarded", s.guarded}};
 }
 
 Json Facts(const SolverResult& solver) {
@@ -77,7 +78,8 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
             {"iterations", PerFrame(solver, &Frame::iterations)},
             {"residual_m_s", PerFrame(solver, &Frame::residual)},
             {"steps_accepted", PerFrame(solver, &Frame::steps_accepted)},
-            {"steps_restored", PerFrame(solver, &Frame::steps_restored)}}},
+            {"steps_restored", PerFrame(solver, &Frame::steps_restored)},
+            {"guarded", PerFrame(solver, &Frame::guarded)}}},
           {"repetitions", repetitions}};
 }
 

@@ -27,6 +27,7 @@ struct Frame {
   int iterations = 0;
   double residual = kNotMeasured;  ///< Largest of all groups, on observed frames [m/s].
   int steps_accepted = 0, steps_restored = 0, factorisations = 0;
+  int guarded = 0;            ///< Islands on which something was guarded; see cairn::Guards.
   int rows = 0, islands = 0;  ///< Given to the solver, on observed frames; 0 otherwise.
   FrameFacts facts;           ///< With RunOptions::page.
 };

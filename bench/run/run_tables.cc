@@ -88,6 +88,7 @@ TextTable FactsTable(const SceneResult& scene, const RunResult& run) {
   if (can_fall) table.columns.push_back({"scene", ""});
   table.columns.push_back({"steps kept", "/undone"});
   table.columns.push_back({"factorised", "times"});
+  table.columns.push_back({"guarded", "islands"});
   table.columns.push_back({"fallbacks", "% of calls"});
   for (const SolverResult& solver : scene.solvers) {
     const Summary s = Summarise(solver, scene, run.budget);
@@ -101,6 +102,7 @@ TextTable FactsTable(const SceneResult& scene, const RunResult& run) {
     if (can_fall) row.push_back(!solver.standing ? "-" : *solver.standing ? "standing" : "fallen");
     row.push_back(solver.is_ours ? fmt::format("{}/{}", s.steps_accepted, s.steps_restored) : "-");
     row.push_back(solver.is_ours ? fmt::format("{}", s.factorisations) : "-");
+    row.push_back(solver.is_ours ? fmt::format("{}", s.guarded) : "-");
     row.push_back(solver.fallback_share ? fmt::format("{:.0f}", 100 * *solver.fallback_share)
                                         : "-");
   }

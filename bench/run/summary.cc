@@ -113,6 +113,7 @@ Summary Summarise(const SolverResult& solver, const SceneResult& scene,
     summary.steps_accepted += frame.steps_accepted;
     summary.steps_restored += frame.steps_restored;
     summary.factorisations += frame.factorisations;
+    summary.guarded += frame.guarded;
   }
   summary.timed_frames = static_cast<int>(times.size());
   summary.p50 = Median(times);

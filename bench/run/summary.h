@@ -22,7 +22,7 @@ struct Summary {
   double iterations = kNotMeasured;  ///< Mean.
   double residual_mean = kNotMeasured, residual_max = kNotMeasured;  ///< [m/s]
   double error_median = kNotMeasured, error_max = kNotMeasured;      ///< [m/s]
-  int steps_accepted = 0, steps_restored = 0, factorisations = 0;
+  int steps_accepted = 0, steps_restored = 0, factorisations = 0, guarded = 0;
 };
 
 Summary Summarise(const SolverResult& solver, const SceneResult& scene,
