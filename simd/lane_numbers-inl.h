@@ -156,9 +156,9 @@ inline double AddRounded(const double* numbers, int count, double scale) {
   double sums[kPlaces] = {};
   int i = 0;
   for (; i + kPlaces <= count; i += kPlaces) {
-    for (int k = 0; k < kPlaces; ++k) sums[k] += RoundedSigned(numbers[i + k] * scale);
+    for (int k = 0; k < kPlaces; ++k) sums[k] += Rounded(numbers[i + k] * scale);
   }
-  for (int k = 0; i < count; ++i, ++k) sums[k] += RoundedSigned(numbers[i] * scale);
+  for (int k = 0; i < count; ++i, ++k) sums[k] += Rounded(numbers[i] * scale);
   double all = 0;
   for (const double sum : sums) all += sum;
   return all;

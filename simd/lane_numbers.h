@@ -61,16 +61,10 @@ struct LaneKernels {
 /// @pre the CPU supports it
 const LaneKernels& LaneKernelsFor(Target target);
 
-/// @p number as a whole number, to the nearest even one, if |number| < 2^51. What is not a number
-/// stays so.
-inline double RoundedSigned(double number) {
-  constexpr double kNoFractions = 6755399441055744.0;  // 1.5 * 2^52
-  return (number + kNoFractions) - kNoFractions;
-}
-
-/// @p number >= 0 as a whole number, unless it is so large anyway. What is not a number stays so.
+/// @p number as a whole number, the nearest even one of two, unless it is so large anyway. What is
+/// not a number stays so.
 inline double Rounded(double number) {
-  constexpr double kNoFractions = 4503599627370496.0;  // 2^52
+  constexpr double kNoFractions = 6755399441055744.0;  // 1.5 * 2^52
   return (number + kNoFractions) - kNoFractions;
 }
 

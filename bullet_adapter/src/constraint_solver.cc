@@ -21,8 +21,8 @@ using Clock = std::chrono::steady_clock;
 /// ends inside it.
 constexpr int kReserve = 50;
 
-/// Where an island is done without a budget [m/s] and [rad/s]: a thousandth of what gravity adds in
-/// a step at 60 Hz, and less than ten iterations of Bullet leave on a box at rest.
+/// Where an island is done without a budget [m/s] and [rad/s]: less than a thousandth of what
+/// gravity adds in a step at 60 Hz, and than ten iterations of Bullet leave on a box on an incline.
 constexpr double kGoodEnough = 1e-4;
 
 constexpr const char* kSource =

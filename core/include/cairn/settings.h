@@ -41,9 +41,10 @@ enum class SweepOrder {
 enum class StepPolicy {
   kMeasured,  ///< Where it is predicted to pay, and no longer where it was measured not to.
   kAlways,    ///< After every k_gs sweeps that may be followed by k_gs more, at any cost.
-  /// Where it is predicted to do more than as many sweeps again as max_sweeps, and to cost no more
-  /// than all else that is done about its island. Islands without a step make those sweeps. Contact
-  /// problems in blocks without a budget; elsewhere as kMeasured.
+  /// Where it lowers the energy by more than the sweeps in its place would, and is predicted to
+  /// cost about as much as all else on its island at most. Islands without a step go on for up to
+  /// twice max_sweeps; docs/solver.md, Effort. Contact problems in blocks without a budget;
+  /// elsewhere as kMeasured.
   kWeighed,
 };
 

@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "reference/pack.h"
-#include "step/row_side.h"
+#include "simd/pair_law.h"
 
 namespace cairn {
+
+using simd::RowSide;
 
 /// The predicted set of one island, one entry per row.
 using ActiveSet = std::vector<RowSide>;

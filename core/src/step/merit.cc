@@ -142,8 +142,8 @@ void IslandMerits::AddShared(const Plan& plan, const Group& group) {
   });
   for (int i : islands) scales_[i] = {ScaleOf(scales_[i].gain), ScaleOf(scales_[i].square)};
   for_parts([this](int island, double gain, double square) {
-    merits_[island].gain += simd::RoundedSigned(gain * scales_[island].gain);
-    merits_[island].square += simd::RoundedSigned(square * scales_[island].square);
+    merits_[island].gain += simd::Rounded(gain * scales_[island].gain);
+    merits_[island].square += simd::Rounded(square * scales_[island].square);
   });
   for (int i : islands) {
     merits_[i].gain /= scales_[i].gain;

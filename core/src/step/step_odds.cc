@@ -19,10 +19,10 @@ constexpr int kMeasureAgain = 64;
 /// By how much more than five sweeps a step has to gain: ten sweeps gain less than twice as much,
 /// twenty less than four times. Steps go on a while longer than they begin.
 constexpr double kPays = 3, kPaysForMore = 4, kGoesOn = 0.65;
-/// Trials in a row that steps have to fail where they gained more than so many times what sweeps
-/// do.
-constexpr int kDoubts = 4;
-constexpr double kMuch = 6;
+/// Trials in a row that steps have to fail where, in the last one that they passed, they gained
+/// more than so many times what sweeps do; elsewhere it is one.
+constexpr int kDoubts = 3;
+constexpr double kMuch = 8;
 /// Frames between two trials.
 constexpr int kLeastPause = 2, kMostPause = 16;
 constexpr double kLeastPower = 0.05, kMostPower = 20;
@@ -62,14 +62,13 @@ void StepOdds::LearnGains(double with_step, double alone, bool more) {
   carries_ = with_step > kCarries * alone;
   const double pays = more ? kPaysForMore : kPays;
   const bool went_on = pays_ && trial_pause_ > 0;
-  const double ratio = alone > 0 ? with_step / alone : with_step > 0 ? kMuch * kMuch : 0;
-  Learn(std::log(std::clamp(ratio, 1 / kMuch, kMuch * kMuch)), &gain_known_, &gain_);
   if (went_on && with_step <= kGoesOn * pays * alone) {
-    // where steps carry much, those that come and go do harm: not on one doubt
-    pays_ = ++doubts_ < kDoubts && gain_ > std::log(kMuch);
+    // where steps carry much, those that come and go do harm
+    pays_ = ++doubts_ < (carried_much_ ? kDoubts : 1);
     trial_pause_ = pays_ ? 1 : kLeastPause;
   } else {
     pays_ = went_on || with_step > pays * alone;
+    carried_much_ = with_step > kMuch * alone;
     doubts_ = 0;
     // what is piled up now, or begins to sag, asks for steps soon
     trial_pause_ = pays_ ? kMostPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);

@@ -62,9 +62,8 @@ class StepOdds {
   bool carries_ = false;
   bool pays_ = true;
   bool stepped_ = false;
-  bool gain_known_ = false;
-  double gain_ = 0;  ///< logarithm of what a step gains over that of as many sweeps, a mean
-  int doubts_ = 0;
+  bool carried_much_ = false;
+  int doubts_ = 0;                       ///< trials failed in a row
   int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again
   double power_ = kExpectedPower;
   bool power_known_ = false;

@@ -106,12 +106,16 @@ TEST(StepOdds, PayWhereSweepsInTheirPlaceGainLess) {
   EXPECT_TRUE(odds.pays()) << "sweeps alone do harm";
 }
 
-TEST(StepOdds, OutliveADoubtWhereTheyCarriedMuch) {
+TEST(StepOdds, OutliveDoubtsWhereTheyCarriedMuch) {
   StepOdds odds;
-  for (int trial = 0; trial < 5; ++trial) odds.LearnGains(50, 1, false);
+  odds.LearnGains(50, 1, false);
+  for (int doubt = 0; doubt < 2; ++doubt) {
+    odds.LearnGains(1, 1, false);
+    EXPECT_TRUE(odds.pays()) << doubt;
+    odds.EndFrame(true);
+    EXPECT_TRUE(odds.wants_trial()) << "at once again";
+  }
   odds.LearnGains(1, 1, false);
-  EXPECT_TRUE(odds.pays());
-  for (int doubt = 0; doubt < 3; ++doubt) odds.LearnGains(0, 1, false);
   EXPECT_FALSE(odds.pays());
 }
 
