@@ -32,6 +32,7 @@ enum Part {
   kPack,
   kSweeps,
   kMeasuring,
+  kGuards,
   kSteps,
   kResults,
   kWrite,
@@ -41,7 +42,7 @@ enum Part {
 
 constexpr std::array<const char*, kParts> kNames = {
     "build: bodies", "build: joints", "build: contacts", "plan",  "pack", "sweeps",
-    "measuring",     "steps",         "results",         "write", "other"};
+    "measuring",     "guards",        "steps",           "results", "write", "other"};
 
 /// What of a substep a solver is given.
 enum class Given { kBodies, kBodiesAndJoints };
@@ -151,6 +152,7 @@ class Dissection {
     parts[kPlan] = set_up - parts[kPack];
     parts[kSweeps] = times.of(SpanKind::kSweep);
     parts[kMeasuring] = times.of(SpanKind::kMeasure);
+    parts[kGuards] = times.of(SpanKind::kGuard);
     parts[kSteps] = times.of(SpanKind::kStep) + times.of(SpanKind::kFactorise);
     parts[kResults] = times.of(SpanKind::kResults);
     parts[kWrite] = times.of(SpanKind::kWrite);

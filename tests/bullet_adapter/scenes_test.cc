@@ -22,9 +22,6 @@ bool AllFinite(const bench::World& world) {
   });
 }
 
-// Every 20th frame Cairn's sweeps alone, as many, get the same state. Each island keeps the better
-// of both by the residual in energy, unless the step cut it to a tenth, so the sum over islands may
-// not be larger. Where something hits, sweeps that build on each other can be a percent behind.
 /// phi of all islands [J]
 double Merit(const Report& report) {
   double merit = 0;
@@ -32,6 +29,9 @@ double Merit(const Report& report) {
   return merit;
 }
 
+// Every 20th frame Cairn's sweeps alone, as many, get the same state. Each island keeps the better
+// of both by the residual in energy, unless the step cut it to a tenth, so the sum over islands may
+// not be larger. Where something hits, sweeps that build on each other can be a percent behind.
 TEST_P(CairnOnScene, Runs600FramesWithoutNanAndNeverWorseThanSweepsAlone) {
   // of the same bodies, so without what either learns of their tension
   const bullet::Options plain{.geometric_stiffness = false};
@@ -51,8 +51,9 @@ TEST_P(CairnOnScene, Runs600FramesWithoutNanAndNeverWorseThanSweepsAlone) {
         // what is done is left alone, and without a step these are sweeps that build on each other
         const bool done = std::max(report.residual_max, report.residual_angular) <= 1e-4;
         if (done || report.steps_accepted == 0) return;
-        // or closer in energy, and at most four times as rough; see StepTrial
-        const bool closer = Merit(with_steps.report()) < Merit(sweeps.report());
+        // or as close in energy to a thousandth, and at most four times as rough; see StepTrial
+        const double merit = Merit(sweeps.report());
+        const bool closer = Merit(with_steps.report()) < merit + 1e-3 * std::abs(merit);
         EXPECT_LE(with_steps.report().residual_energy,
                   (closer ? 4 : 1.02) * sweeps.report().residual_energy + unseen)
             << "frame " << frame << ", phi " << Merit(with_steps.report()) << " and "

@@ -14,6 +14,7 @@ const KINDS = {
   "set-up": { light: "#5fa5d9", dark: "#3f86bf" },
   "sweep": { light: "#3bb08f", dark: "#2c8f72" },
   "residual": { light: "#c8a7ea", dark: "#7d58a8", hatch: "/" },
+  "guards": { light: "#e7c3d6", dark: "#8d4f70" },
   "subspace step": { light: "#f2b279", dark: "#a8632a", hatch: "\\" },
   "factorise": { light: "#d96a2b", dark: "#e08347" },
   "wait": { light: "#f6d8d8", dark: "#5c3030", hatch: "x" },

@@ -15,6 +15,7 @@ enum class SpanKind : std::uint8_t {
   kSetUp,      ///< Pairs, colours, blocks, numbers.
   kSweep,      ///< A colour in a sweep: SpanLabel::number is the sweep, part the colour.
   kMeasure,    ///< Residuals.
+  kGuard,      ///< What impulses are worth, before the first sweep and after the last.
   kStep,       ///< A subspace step, factorisation included.
   kFactorise,  ///< Cholesky; number is the front.
   kWait,       ///< For units of work that another thread has claimed.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "cairn/spans.h"
+
 namespace cairn {
 namespace {
 
@@ -80,6 +82,7 @@ void BlockCycle::Begin() {
 void BlockCycle::GuardStart() {
   guards_ = IsGuarded(*settings_);
   if (!guards_) return;
+  const SpanClock clock(settings_->spans, 0, {SpanKind::kGuard});
   merits_.Find(frame_, made_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (Done(i) || !merits_.of(i).is_worse_than_none()) continue;
@@ -89,6 +92,7 @@ void BlockCycle::GuardStart() {
 }
 
 void BlockCycle::GuardResult() {
+  const SpanClock clock(settings_->spans, 0, {SpanKind::kGuard});
   for (GroupSweeps& group : chosen_) group.active = true;
   merits_.Find(frame_, chosen_);
   ChooseNone();

@@ -22,6 +22,8 @@ std::string_view Describe(SpanKind kind) {
       return "sweep";
     case SpanKind::kMeasure:
       return "residual";
+    case SpanKind::kGuard:
+      return "guards";
     case SpanKind::kStep:
       return "subspace step";
     case SpanKind::kFactorise:
