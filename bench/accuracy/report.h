@@ -5,7 +5,7 @@
 #include <string>
 
 #include "measure/velocity_norm.h"
-#include "run/run_context.h"
+#include "support/machine/run_context.h"
 
 namespace cairn::accuracy {
 

@@ -7,9 +7,9 @@
 #include <array>
 
 #include "cairn/settings.h"
-#include "contestants/thread_stopwatch.h"
 #include "measure/joint_impulses.h"
 #include "measure/substep.h"
+#include "support/machine/thread_stopwatch.h"
 
 namespace cairn::accuracy {
 

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "run/run_context.h"
 #include "support/json_number.h"
+#include "support/machine/run_context.h"
 
 namespace cairn::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cairn/report.h"
 #include "cairn/settings.h"
 #include "cairn/solver.h"
-#include "rigid/contact_frame.h"
+#include "measure/contact_frame.h"
 
 namespace cairn::frames {
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "support/build_info.h"
-#include "support/machine.h"
+#include "support/machine/build_info.h"
+#include "support/machine/machine.h"
 
 namespace cairn::frames {
 

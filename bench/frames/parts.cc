@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "contestants/thread_stopwatch.h"
 #include "frames/markdown.h"
 #include "frames/size_series.h"
 #include "frames/span_times.h"
 #include "measure/instrumented_solver.h"
 #include "measure/joint_impulses.h"
-#include "support/cold_caches.h"
+#include "support/machine/cold_caches.h"
+#include "support/machine/thread_stopwatch.h"
 #include "support/statistics.h"
 
 namespace cairn::frames {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "measure/contact_frame.h"
 #include "measure/row_recorder.h"
-#include "rigid/contact_frame.h"
 #include "scenes/scene.h"
 #include "scenes/world.h"
 

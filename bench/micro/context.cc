@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "simd/target.h"
-#include "support/build_info.h"
-#include "support/machine.h"
+#include "support/machine/build_info.h"
+#include "support/machine/machine.h"
 
 namespace cairn::micro {
 namespace {

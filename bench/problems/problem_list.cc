@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "problems/american_put.h"
-#include "problems/infinite_bearing.h"
-#include "problems/journal_bearing.h"
+#include "problems/bearings/infinite_bearing.h"
+#include "problems/bearings/journal_bearing.h"
+#include "problems/bearings/slider.h"
 #include "problems/obstacle.h"
+#include "problems/options/american_put.h"
+#include "problems/options/two_asset_put.h"
 #include "problems/problem.h"
-#include "problems/slider.h"
 #include "problems/torsion.h"
-#include "problems/two_asset_put.h"
 
 namespace cairn::problems {
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "cairn/bullet/constraint_solver.h"
-#include "contestants/lane.h"
+#include "run/lane.h"
 #include "support/failure.h"
 #include "support/progress.h"
 

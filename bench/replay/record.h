@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cairn/recorder.h"
-#include "tools/options.h"
+#include "run/options.h"
 
 namespace cairn::cli {
 

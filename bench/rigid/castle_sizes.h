@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "measure/contact_frame.h"
 #include "rigid/condition.h"
-#include "rigid/contact_frame.h"
 #include "rigid/contact_model.h"
 
 namespace cairn::bench {

@@ -12,9 +12,9 @@
 #include "effort/scaling.h"
 #include "replay/replay.h"
 #include "run/frame_facts.h"
-#include "run/run_context.h"
-#include "support/metronome.h"
-#include "tools/setup.h"
+#include "support/machine/metronome.h"
+#include "support/machine/run_context.h"
+#include "support/machine/setup.h"
 
 namespace cairn::cli {
 

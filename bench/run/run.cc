@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "contestants/lane.h"
 #include "effort/error_sampler.h"
 #include "replay/sample_plan.h"
+#include "run/lane.h"
 #include "support/duration.h"
-#include "support/metronome.h"
+#include "support/machine/metronome.h"
 
 namespace cairn::cli {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "measure/contact_frame.h"
 #include "measure/instrumented_solver.h"
 #include "measure/row_recorder.h"
-#include "rigid/contact_frame.h"
 #include "run/scene_choice.h"
 #include "scenes/scene.h"
 #include "scenes/world.h"

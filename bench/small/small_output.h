@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "run/run_context.h"
 #include "small/small_result.h"
+#include "support/machine/run_context.h"
 #include "support/text_table.h"
 
 namespace cairn::cli {

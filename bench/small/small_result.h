@@ -9,8 +9,8 @@
 #include "contestants/solver_registry.h"
 #include "run/result.h"
 #include "run/scene_choice.h"
+#include "support/machine/setup.h"
 #include "support/progress.h"
-#include "tools/setup.h"
 
 namespace cairn::cli {
 

@@ -13,13 +13,13 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "contestants/solver_choice.h"
 #include "solve/solution_files.h"
 #include "solve/solve.h"
 #include "solve/solve_csv.h"
 #include "solve/solve_json.h"
 #include "solve/solve_plot.h"
 #include "solve/solve_tables.h"
+#include "solve/solver_choice.h"
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "accuracy/intervals.h"
-#include "accuracy/loop.h"
+#include "accuracy/loop/loop.h"
 #include "accuracy/paired_test.h"
 #include "cairn/contact_problem.h"
 #include "run/scene_choice.h"

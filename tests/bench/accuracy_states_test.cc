@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "accuracy/bullet_trial.h"
-#include "accuracy/frame_statistics.h"
 #include "accuracy/shadow.h"
-#include "accuracy/states.h"
+#include "accuracy/states/frame_statistics.h"
+#include "accuracy/states/states.h"
 #include "measure/converged.h"
 #include "measure/reference.h"
 #include "measure/velocity_norm.h"

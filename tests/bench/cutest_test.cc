@@ -13,8 +13,8 @@
 
 #include "cairn/boxed_lcp.h"
 #include "generated.h"
+#include "problems/bearings/journal_bearing.h"
 #include "problems/grid.h"
-#include "problems/journal_bearing.h"
 #include "problems/obstacle.h"
 #include "problems/problem_folder.h"
 #include "problems/torsion.h"

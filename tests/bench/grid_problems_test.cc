@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "generated.h"
+#include "problems/bearings/infinite_bearing.h"
+#include "problems/bearings/journal_bearing.h"
+#include "problems/bearings/slider.h"
 #include "problems/grid.h"
-#include "problems/infinite_bearing.h"
-#include "problems/journal_bearing.h"
 #include "problems/obstacle.h"
-#include "problems/slider.h"
 #include "problems/torsion.h"
 
 namespace cairn::problems {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "cairn/solver.h"
-#include "problems/american_put.h"
-#include "problems/option_oracles.h"
-#include "problems/two_asset_put.h"
+#include "problems/options/american_put.h"
+#include "problems/options/option_oracles.h"
+#include "problems/options/two_asset_put.h"
 
 namespace cairn::problems {
 namespace {

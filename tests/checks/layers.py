@@ -47,7 +47,7 @@ THIRD_PARTIES = {
     "Eigen's orderings": (r"Eigen/OrderingMethods$", r"core/src/cholesky/minimum_degree\.|tests/"),
     "Eigen's sparse factorisations": (
         r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|.*Support|Iterative.*)$",
-        r"bench/micro/eigen_cholesky\.|tests/"),
+        r"bench/micro/cholesky/eigen_cholesky\.|tests/"),
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
