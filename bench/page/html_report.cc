@@ -6,15 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "effort/error_at_budget.h"
-#include "effort/scaling_table.h"
 #include "page/page_card.h"
 #include "page/page_data.h"
 #include "page/page_figures.h"
 #include "page/page_parts.h"
+#include "run/output/error_at_budget.h"
 #include "run/output/run_tables.h"
+#include "run/output/scaling_table.h"
 #include "run/summary.h"
-#include "solve/svg_plot.h"
+#include "support/svg_plot.h"
 
 namespace cairn::cli {
 namespace {

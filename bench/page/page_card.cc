@@ -11,7 +11,7 @@
 #include "page/page_parts.h"
 #include "run/output/run_tables.h"
 #include "run/summary.h"
-#include "solve/svg_plot.h"
+#include "support/svg_plot.h"
 
 namespace cairn::cli {
 namespace {

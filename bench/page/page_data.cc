@@ -7,8 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "effort/error_at_budget.h"
-#include "replay/packed_replay.h"
+#include "page/packed_replay.h"
+#include "run/output/error_at_budget.h"
 #include "run/summary.h"
 #include "support/duration.h"
 #include "support/json_number.h"

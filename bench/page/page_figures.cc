@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solve/svg_plot.h"
 #include "support/duration.h"
 #include "support/statistics.h"
+#include "support/svg_plot.h"
 
 namespace cairn::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cairn/boxed_lcp.h"
-#include "effort/yardstick.h"
 #include "run/result.h"
 #include "solve/solve_options.h"
+#include "solve/yardstick.h"
 #include "support/machine/run_context.h"
 #include "support/machine/solver_clock.h"
 

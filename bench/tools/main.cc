@@ -7,19 +7,19 @@
 #include <memory>
 
 #include "CLI/CLI.hpp"
-#include "campaign/worlds_command.h"
-#include "compare/compare_command.h"
-#include "replay/record_command.h"
-#include "run/run_command.h"
-#include "solve/solve_command.h"
 #include "support/command.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/names.h"
 #include "support/output_file.h"
+#include "tools/compare_command.h"
 #include "tools/doctor.h"
 #include "tools/list.h"
 #include "tools/precision.h"
+#include "tools/record_command.h"
+#include "tools/run_command.h"
+#include "tools/solve_command.h"
+#include "tools/worlds_command.h"
 
 namespace cairn::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effort/error_at_budget.h"
+#include "run/output/error_at_budget.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solve_plot.h"
+#include "solve/output/solve_plot.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "solve/svg_plot.h"
+#include "support/svg_plot.h"
 
 namespace cairn::cli {
 namespace {

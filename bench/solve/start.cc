@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/start.h"
+#include "solve/start.h"
 
 #include <utility>
 

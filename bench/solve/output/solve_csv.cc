@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solve_csv.h"
+#include "solve/output/solve_csv.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solve_frame_tables.h"
+#include "solve/output/solve_frame_tables.h"
 
 #include <fmt/format.h>
 

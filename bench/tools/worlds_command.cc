@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "campaign/worlds_command.h"
+#include "tools/worlds_command.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/trace.h"
+#include "solve/trace.h"
 
 #include <algorithm>
 #include <utility>

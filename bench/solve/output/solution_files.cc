@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solution_files.h"
+#include "solve/output/solution_files.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

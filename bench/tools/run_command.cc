@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/run_command.h"
+#include "tools/run_command.h"
 
 #include <fmt/format.h>
 
@@ -11,17 +11,17 @@
 #include "CLI/CLI.hpp"
 #include "compare/noise_table.h"
 #include "page/html_report.h"
-#include "replay/trace_file.h"
 #include "run/imported_scene.h"
 #include "run/output/csv_output.h"
 #include "run/output/json_output.h"
 #include "run/output/run_tables.h"
+#include "run/output/trace_file.h"
 #include "run/run.h"
-#include "small/small_command.h"
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
 #include "support/output_file.h"
+#include "tools/small_command.h"
 
 namespace cairn::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effort/yardstick.h"
+#include "solve/yardstick.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/compare_command.h"
+#include "tools/compare_command.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/svg_plot.h"
+#include "support/svg_plot.h"
 
 #include <fmt/format.h>
 

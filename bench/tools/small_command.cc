@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "small/small_command.h"
+#include "tools/small_command.h"
 
 #include <fmt/format.h>
 

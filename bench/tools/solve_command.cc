@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solve_command.h"
+#include "tools/solve_command.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "solve/solution_files.h"
+#include "solve/output/solution_files.h"
+#include "solve/output/solve_csv.h"
+#include "solve/output/solve_json.h"
+#include "solve/output/solve_plot.h"
+#include "solve/output/solve_tables.h"
 #include "solve/solve.h"
-#include "solve/solve_csv.h"
-#include "solve/solve_json.h"
-#include "solve/solve_plot.h"
-#include "solve/solve_tables.h"
 #include "solve/solver_choice.h"
 #include "support/command_line.h"
 #include "support/duration.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solve_json.h"
+#include "solve/output/solve_json.h"
 
 #include <chrono>
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/record_command.h"
+#include "tools/record_command.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "replay/record.h"
-#include "solve/solution_files.h"
+#include "run/record.h"
+#include "solve/output/solution_files.h"
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"

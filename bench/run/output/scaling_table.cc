@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effort/scaling_table.h"
+#include "run/output/scaling_table.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "rows/row_run.h"
+#include "solve/row_run.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/solve_tables.h"
+#include "solve/output/solve_tables.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 
 #include "run/summary.h"
-#include "solve/solve_frame_tables.h"
+#include "solve/output/solve_frame_tables.h"
 #include "support/duration.h"
 #include "support/phase_names.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/pair_run.h"
+#include "solve/pair_run.h"
 
 #include <fmt/format.h>
 
@@ -7,12 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "replay/trace.h"
 #include "run/summary.h"
+#include "solve/start.h"
+#include "solve/trace.h"
 #include "support/duration.h"
 #include "support/phase_names.h"
 #include "support/statistics.h"
-#include "tools/start.h"
 
 namespace cairn::cli {
 

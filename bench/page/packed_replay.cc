@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/packed_replay.h"
+#include "page/packed_replay.h"
 
 #include <algorithm>
 #include <cmath>

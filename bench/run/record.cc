@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/record.h"
+#include "run/record.h"
 
 #include <fmt/format.h>
 

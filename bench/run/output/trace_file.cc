@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/trace_file.h"
+#include "run/output/trace_file.h"
 
 #include <fmt/format.h>
 
