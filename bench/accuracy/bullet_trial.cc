@@ -5,7 +5,7 @@
 
 #include "cairn/bullet/group_rows.h"
 #include "measure/row_recorder.h"
-#include "support/machine/solver_clock.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::accuracy {
 namespace {

@@ -9,7 +9,7 @@
 #include "cairn/settings.h"
 #include "measure/joint_impulses.h"
 #include "measure/substep.h"
-#include "support/machine/thread_stopwatch.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::accuracy {
 

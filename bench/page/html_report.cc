@@ -6,14 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include "page/page_card.h"
-#include "page/page_data.h"
-#include "page/page_figures.h"
 #include "page/page_parts.h"
-#include "run/output/error_at_budget.h"
-#include "run/output/run_tables.h"
-#include "run/output/scaling_table.h"
+#include "run/output/run_output.h"
 #include "run/summary.h"
+#include "support/statistics.h"
 #include "support/svg_plot.h"
 
 namespace cairn::cli {
@@ -63,6 +59,42 @@ std::string Plot(std::string_view name, size_t scene, const std::string& without
                      scene);
 }
 
+/// Medians over the samples, rung by rung.
+Series MedianCurve(const SolverResult& solver, int style) {
+  Series series{.label = solver.label, .style = style, .x = {}, .y = {}};
+  size_t rungs = 0;
+  for (const auto& curve : solver.curves) rungs = std::max(rungs, curve.size());
+  for (size_t rung = 0; rung < rungs; ++rung) {
+    std::vector<double> times, errors;
+    for (const auto& curve : solver.curves) {
+      if (rung >= curve.size()) continue;
+      times.push_back(curve[rung].time);
+      errors.push_back(curve[rung].error);
+    }
+    // less effort that took longer says nothing
+    const double time = Median(times);
+    while (!series.x.empty() && series.x.back() >= time) {
+      series.x.pop_back();
+      series.y.pop_back();
+    }
+    series.x.push_back(time);
+    series.y.push_back(Median(errors));
+  }
+  return series;
+}
+
+/// Error against time for a page without scripts.
+std::string ErrorTimePlot(const SceneResult& scene) {
+  LinePlot plot;
+  plot.title = "Velocity error on the same states, medians";
+  plot.unit = "m/s";
+  plot.x_label = "solver time [ms]";
+  for (size_t s = 0; s < scene.solvers.size(); ++s) {
+    plot.series.push_back(MedianCurve(scene.solvers[s], static_cast<int>(s)));
+  }
+  return "<figure>" + plot.ToSvg() + "</figure>\n";
+}
+
 std::string Errors(const SceneResult& scene, const RunResult& run, size_t index) {
   if (scene.samples.empty()) {
     return "<h3>Error against time</h3><p class=\"soft\">Not measured in this run: it took no "
@@ -89,14 +121,13 @@ std::string Section(const SceneResult& scene, const RunResult& run, size_t index
       Escape(Verdict(scene, run)));
   html += Table(PerformanceTable(scene, run), scene) + Legend(scene);
   html += Errors(scene, run, index);
-  html += "<h3>Frame times</h3>\n" + Plot("histogram", index, TimePlot(scene, run)) +
+  html += "<div class=\"scripted\"><h3>Frame times</h3></div>\n" + Plot("histogram", index) +
           Plot("strip", index);
   html += "<div class=\"scripted\"><h3>Replay</h3></div>\n" + Plot("replay", index);
   html +=
       "<div class=\"scripted\"><h3>Inside the slowest frame</h3></div>\n" + Plot("timeline", index);
   html += "<h3>What became of the scene</h3>\n" + Table(FactsTable(scene, run), scene) +
-          Plot("facts", index,
-               ResidualPlot(scene, run) + "<div class=\"bars\">" + FactBars(scene) + "</div>");
+          Plot("facts", index);
   return html + ProblemCard(scene) + "</section>\n";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "page/packed_replay.h"
+#include "page/html_report.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "page/page_card.h"
+#include "page/html_report.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 
 #include "compare/noise_table.h"
 #include "page/page_parts.h"
-#include "run/output/run_tables.h"
-#include "run/summary.h"
+#include "run/output/run_output.h"
 #include "support/svg_plot.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "page/page_data.h"
+#include "page/html_report.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "page/packed_replay.h"
-#include "run/output/error_at_budget.h"
+#include "run/output/run_output.h"
 #include "run/summary.h"
 #include "support/duration.h"
 #include "support/json_number.h"

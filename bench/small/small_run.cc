@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "small/small_run.h"
+#include "small/small.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "scenes/facts.h"
 #include "small/same_states.h"
 #include "support/machine/cold_caches.h"
-#include "support/machine/thread_stopwatch.h"
+#include "support/machine/stopwatch.h"
 #include "support/progress.h"
 #include "support/statistics.h"
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <utility>
 
-#include "run/summary.h"
 #include "solve/start.h"
 #include "solve/trace.h"
 #include "support/duration.h"
 #include "support/phase_names.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cairn/solver.h"
-#include "run/result.h"
+#include "support/statistics.h"
 
 namespace cairn::cli {
 namespace {

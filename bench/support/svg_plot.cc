@@ -7,8 +7,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "run/summary.h"
-
 namespace cairn::cli {
 namespace {
 
@@ -51,15 +49,11 @@ std::string LineStyle(int style) {
 
 /// Maps values to places in a LinePlot.
 struct Axes {
-  LinePlot::Scale x_scale = LinePlot::Scale::kLinear;
-  double x_least = 0, x_most = 1;
-  double low = 1e-3, high = 1;  ///< Decades, or less if the values are close together.
+  double x_least = 1, x_most = 10;  ///< Whole decades.
+  double low = 1e-3, high = 1;      ///< Likewise.
 
   double X(double x) const {
-    const double share =
-        x_scale == LinePlot::Scale::kLinear
-            ? x / x_most
-            : std::log(std::max(x, x_least) / x_least) / std::log(x_most / x_least);
+    const double share = std::log(std::max(x, x_least) / x_least) / std::log(x_most / x_least);
     return kLeft + (kWidth - kLeft - kRight) * share;
   }
   double Y(double y) const {
@@ -68,67 +62,48 @@ struct Axes {
   }
 };
 
-/// Whole decades around the positive x of the series.
-void FitHorizontally(const LinePlot& plot, Axes* axes) {
+/// The least and the largest of values that have a logarithm; largest 0 without any.
+struct Extent {
   double least = INFINITY, most = 0;
-  for (const Series& series : plot.series) {
-    for (const double x : series.x) {
-      if (x > 0) least = std::min(least, x);
-      most = std::max(most, x);
-    }
+
+  void Add(double value) {
+    if (!(value > 0) || !std::isfinite(value)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
   }
-  axes->x_scale = LinePlot::Scale::kLogarithmic;
-  axes->x_least = most > 0 ? std::pow(10, std::floor(std::log10(least))) : 1;
-  axes->x_most = most > 0 ? std::pow(10, std::ceil(std::log10(most))) : 10;
-  if (axes->x_most == axes->x_least) axes->x_most *= 10;
-}
+};
+
+double DecadeBelow(double value) { return std::pow(10, std::floor(std::log10(value))); }
+double DecadeAbove(double value) { return std::pow(10, std::ceil(std::log10(value))); }
 
 Axes AxesOf(const LinePlot& plot) {
-  Axes axes{.x_most = std::max(1.0, plot.x_most)};
-  if (plot.x_scale == LinePlot::Scale::kLogarithmic) FitHorizontally(plot, &axes);
-  double least = INFINITY, most = 0;
-  const auto add = [&](double y) {
-    if (!(y > 0) || !std::isfinite(y)) return;
-    least = std::min(least, y);
-    most = std::max(most, y);
-  };
+  Extent x, y;
   for (const Series& series : plot.series) {
-    for (double y : series.y) add(y);
+    for (const double value : series.x) x.Add(value);
+    for (const double value : series.y) y.Add(value);
   }
-  if (plot.limit) add(*plot.limit);
-  if (most == 0) return axes;
+  Axes axes;
+  if (x.most > 0) {
+    axes.x_least = DecadeBelow(x.least);
+    axes.x_most = DecadeAbove(x.most);
+    if (axes.x_most == axes.x_least) axes.x_most *= 10;
+  }
+  if (y.most == 0) return axes;
   // More decades are a solver that is exact, or one that exploded: cut off below.
-  axes.high = std::pow(10, std::ceil(std::log10(most * 1.05)));
-  axes.low = std::max(std::pow(10, std::floor(std::log10(least * 0.95))),
-                      axes.high * std::pow(10, -plot.most_decades));
+  axes.high = DecadeAbove(y.most * 1.05);
+  axes.low = std::max(DecadeBelow(y.least * 0.95), axes.high * std::pow(10, -plot.most_decades));
   return axes;
 }
 
-/// The nearest of 1, 2, 5, 10, 20, 50... that is not less.
-double RoundStep(double least) {
-  const double decade = std::pow(10, std::floor(std::log10(std::max(1.0, least))));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * decade >= least) return factor * decade;
-  }
-  return 10 * decade;
-}
-
-/// Labels below: round steps, or decades.
 std::string HorizontalLabels(const Axes& axes) {
   std::string svg;
-  const auto add = [&](double x) {
-    // the last one would stick out
-    const bool last = axes.X(x) > kWidth - kRight - 1;
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}</text>", axes.X(x),
-                       kHeight - kBottom + 16, last ? "end" : "middle", x);
-  };
-  if (axes.x_scale == LinePlot::Scale::kLinear) {
-    const double step = RoundStep(axes.x_most / 4);
-    for (double x = 0; x <= axes.x_most; x += step) add(x);
-  } else {
-    const int first = static_cast<int>(std::lround(std::log10(axes.x_least)));
-    const int last = static_cast<int>(std::lround(std::log10(axes.x_most)));
-    for (int exponent = first; exponent <= last; ++exponent) add(std::pow(10, exponent));
+  const int first = static_cast<int>(std::lround(std::log10(axes.x_least)));
+  const int last = static_cast<int>(std::lround(std::log10(axes.x_most)));
+  for (int exponent = first; exponent <= last; ++exponent) {
+    // in the middle the last one would stick out
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"{}\">{:g}</text>",
+                       axes.X(std::pow(10, exponent)), kHeight - kBottom + 16,
+                       exponent == last ? "end" : "middle", std::pow(10, exponent));
   }
   return svg;
 }
@@ -183,40 +158,6 @@ std::string LinePlot::ToSvg() const {
       "<text class=\"t\" x=\"{}\" y=\"14\">{}</text>{}",
       kWidth, kHeight, Escape(title), kLeft, Escape(title), Grid(axes, *this));
   for (const Series& line : series) svg += Line(line, axes);
-  if (limit) {
-    svg += fmt::format(
-        "<line class=\"b\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>"
-        "<text class=\"b\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>",
-        kLeft, kWidth - kRight, axes.Y(*limit), axes.Y(*limit), kWidth - kRight, axes.Y(*limit) - 5,
-        Escape(limit_label));
-  }
-  return svg + "</svg>\n";
-}
-
-std::string BarChart::ToSvg() const {
-  constexpr double kBarLeft = 110, kBarRight = 60, kBarHeight = 16, kFirst = 26;
-  const double height = kFirst + kBarHeight * static_cast<double>(bars.size()) + 4;
-  double most = 0;
-  for (const Bar& bar : bars) {
-    if (std::isfinite(bar.value)) most = std::max(most, std::abs(bar.value));
-  }
-  constexpr double kBarWidth = 320;
-  std::string svg = fmt::format(
-      "<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">"
-      "<text class=\"t\" x=\"0\" y=\"14\">{}</text>",
-      kBarWidth, height, Escape(title), Escape(title));
-  for (size_t i = 0; i < bars.size(); ++i) {
-    const Bar& bar = bars[i];
-    const double y = kFirst + kBarHeight * static_cast<double>(i);
-    const double share = std::isfinite(bar.value) && most > 0 ? std::abs(bar.value) / most : 0;
-    const double width = share * (kBarWidth - kBarLeft - kBarRight);
-    svg += fmt::format(
-        "<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>"
-        "<rect class=\"f s{}\" x=\"{}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\"/>"
-        "<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>",
-        kBarLeft - 6, y + 10, Escape(bar.label), bar.style % kStyles, kBarLeft, y, width,
-        kBarHeight - 5, kBarLeft + width + 5, y + 10, FormatNumber(bar.value));
-  }
   return svg + "</svg>\n";
 }
 
@@ -237,9 +178,8 @@ std::string_view PlotStyleSheet() {
 svg{font:11px system-ui,sans-serif;width:100%;height:auto;display:block}
 svg text{fill:var(--soft)}svg .t{fill:var(--ink);font-size:13px;font-weight:600}
 svg .g{stroke:var(--rule);stroke-width:1}
-svg line.b{stroke:var(--ink);stroke-width:1.2;stroke-dasharray:1 3;stroke-linecap:round}svg text.b{fill:var(--ink);stroke:var(--paper);stroke-width:4;paint-order:stroke}
 svg .l{fill:none;stroke:var(--c);stroke-width:1.5;stroke-linejoin:round}
-svg .m{fill:var(--paper);stroke:var(--c);stroke-width:1.5}svg .f{fill:var(--c)}
+svg .m{fill:var(--paper);stroke:var(--c);stroke-width:1.5}
 svg.k{width:34px;height:12px;display:inline-block;vertical-align:-1px;margin-right:7px}
 )css";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/compare_command.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 
 #include "CLI/CLI.hpp"
-#include "compare/compare_output.h"
+#include "compare/comparison.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/output_file.h"

@@ -12,14 +12,10 @@
 #include "support/failure.h"
 #include "support/names.h"
 #include "support/output_file.h"
-#include "tools/compare_command.h"
+#include "tools/commands.h"
 #include "tools/doctor.h"
 #include "tools/list.h"
 #include "tools/precision.h"
-#include "tools/record_command.h"
-#include "tools/run_command.h"
-#include "tools/solve_command.h"
-#include "tools/worlds_command.h"
 
 namespace cairn::cli {
 namespace {

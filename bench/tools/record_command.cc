@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/record_command.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 
@@ -9,19 +9,20 @@
 
 #include "CLI/CLI.hpp"
 #include "run/record.h"
-#include "solve/output/solution_files.h"
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
+#include "support/output_file.h"
+#include "tools/words.h"
 
 namespace cairn::cli {
 namespace {
 
 /// What was typed behind the options of `cairn record`.
 struct RecordWords {
-  std::vector<std::string> scenes;
+  SceneWords scenes;
+  EffortWords effort;
   std::string frames, folder, solver = "cairn";
-  std::string budget, iterations, size, seed = "0";
   bool force = false;
   OutputWords output;
 };
@@ -42,23 +43,12 @@ Exit codes: 0 fine, 1 the solver failed, 2 usage, 3 a file cannot be written.)";
 RecordOptions Check(const RecordWords& words) {
   RecordOptions options;
   RunOptions& run = options.run;
-  run.seed = ParseCount("--seed", words.seed, 0, 1'000'000'000,
-                        "0: the scene as designed, else displaced by up to 0.1 mm");
-  run.scenes = ParseScenes(words.scenes, words.size, run.seed);
+  Parse(words.scenes, words.effort, &run);
   run.solvers = ParseSolvers(words.solver);
   if (run.solvers.size() != 1) throw Failure(kUsage, "--solver: one solver makes the frames");
-  if (!words.budget.empty()) {
-    const FrameBudget budget = ParseBudget("--budget", words.budget);
-    run.budget = budget.time;
-    run.units = budget.units;
+  if (AnyFit(run)) {
+    throw Failure(kUsage, "iterations that fit a budget make other frames each time");
   }
-  if (!words.iterations.empty()) {
-    run.iterations = ParseIterations("--iterations", words.iterations);
-  }
-  const bool fit = run.iterations.kind == IterationRule::Kind::kFit ||
-                   (run.solvers[0].own_iterations &&
-                    run.solvers[0].own_iterations->kind == IterationRule::Kind::kFit);
-  if (fit) throw Failure(kUsage, "iterations that fit a budget make other frames each time");
   if (!options.frames.Parse(words.frames) || options.frames.last() > kMostFrame) {
     throw Failure(kUsage, fmt::format("--frames '{}': write numbers from 0 to {}, such as 40,90 or "
                                       "40-49,90",
@@ -90,21 +80,16 @@ Command AddRecordCommand(CLI::App* app) {
   CLI::App* const record =
       app->add_subcommand("record", "Write what solvers are given in frames of scenes to files");
   record->footer(kRecordNotes);
-  record->add_option("scene", words->scenes, "Scenes to play; 'all' for every one")
-      ->required()
-      ->type_name("SCENE...");
-  const auto add = [record](const char* name, std::string* word, const char* help,
-                            const char* type) { AddText(record, name, word, help, type); };
+  AddScenes(record, "play", &words->scenes)->required();
+  const auto add = TextAdder(record);
   add("--frames", &words->frames, "Frames to write, counted from 0: 40,90 or 40-49", "N,N-M,...");
   add("-o,--out", &words->folder, "Folder to write to; made if it is not there", "DIR");
   record->get_option("--frames")->required();
   record->get_option("--out")->required();
   add("--solver", &words->solver, "Solver that makes the frames; default cairn", "S");
-  add("--budget", &words->budget, "What a frame may cost, as for cairn run", "B");
-  add("--iterations", &words->iterations, "Iterations of the solver; default 10", "N");
-  add("--size", &words->size, "Size of the scene; see cairn list scenes", "N");
-  add("--seed", &words->seed,
-      "Displaces bodies by up to 0.1 mm, differently for each seed; default 0: none", "N");
+  add("--budget", &words->effort.budget, "What a frame may cost, as for cairn run", "B");
+  add("--iterations", &words->effort.iterations, "Iterations of the solver; default 10", "N");
+  AddSizeAndSeed(record, &words->scenes);
   record->add_flag("--force", words->force, "Write over recordings that are there already");
   AddOutputWords(record, &words->output);
   return {record, [words](const std::string&) { return DoRecord(*words); }};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/small_command.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "small/small_output.h"
-#include "small/small_run.h"
-#include "small/small_worlds.h"
+#include "small/small.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/output_file.h"
+#include "tools/words.h"
 
 namespace cairn::cli {
 namespace {
@@ -23,7 +22,7 @@ namespace {
 struct SmallWords {
   std::vector<std::string> worlds;
   std::string frames = "220", warmup, samples = "8";
-  std::string threads = "1", simd, pin;
+  SetupWords setup;
   std::string json, markdown;
   OutputWords output;
 };
@@ -45,17 +44,13 @@ std::string Notes() {
 SmallOptions Check(const SmallWords& words) {
   SmallOptions options;
   options.worlds = ParseSmallWorlds(words.worlds);
-  const auto count = [](const char* option, const std::string& word, int least, int most,
-                        const char* meaning) {
-    return static_cast<int>(ParseCount(option, word, least, most, meaning));
-  };
-  options.frames = count("--frames", words.frames, 1, 1'000'000, "frames of 1/60 s to simulate");
+  options.frames = ParseInt("--frames", words.frames, 1, 1'000'000, "frames of 1/60 s to simulate");
   options.warmup = words.warmup.empty() ? std::min(kUsualWarmup, options.frames / 4)
-                                        : count("--warmup", words.warmup, 0, options.frames - 1,
-                                                "the first frames, which do not count");
-  options.samples =
-      count("--samples", words.samples, 0, 1000, "frames at which the velocity error is measured");
-  options.setup = ParseSetup(words.threads, words.simd, words.pin);
+                                        : ParseInt("--warmup", words.warmup, 0, options.frames - 1,
+                                                   "the first frames, which do not count");
+  options.samples = ParseInt("--samples", words.samples, 0, 1000,
+                             "frames at which the velocity error is measured");
+  options.setup = Parse(words.setup);
   options.progress = ParseProgress(words.output);
   return options;
 }
@@ -85,17 +80,13 @@ Command AddSmallCommand(CLI::App* run) {
   small->footer(Notes());
   small->add_option("world", words->worlds, "Worlds to run (below); default: all")
       ->type_name("WORLD...");
-  const auto add = [small](const char* name, std::string* word, const char* help,
-                           const char* type) { AddText(small, name, word, help, type); };
+  const auto add = TextAdder(small);
   add("--frames", &words->frames, "Frames of 1/60 s; default 220", "N");
   add("--warmup", &words->warmup,
       "Frames, the first ones, that are run and do not count; default 20, at most a quarter", "N");
   add("--samples", &words->samples,
       "Frames at which the velocity error is measured, at most a quarter of all; default 8", "N");
-  add("--threads", &words->threads, "Threads that Cairn may use; default 1", "N");
-  add("--simd", &words->simd, "SIMD target of Cairn instead of the best; see cairn doctor",
-      "TARGET");
-  add("--pin", &words->pin, "Stays on this core, counted from 0", "CORE");
+  AddSetup(small, &words->setup);
   add("--json", &words->json, "Write everything that was measured", "FILE");
   add("--markdown", &words->markdown, "Write the table as Markdown", "FILE");
   AddOutputWords(small, &words->output);

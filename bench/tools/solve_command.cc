@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/solve_command.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 
@@ -13,11 +13,7 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "solve/output/solution_files.h"
-#include "solve/output/solve_csv.h"
-#include "solve/output/solve_json.h"
-#include "solve/output/solve_plot.h"
-#include "solve/output/solve_tables.h"
+#include "solve/output/solve_output.h"
 #include "solve/solve.h"
 #include "solve/solver_choice.h"
 #include "support/command_line.h"
@@ -83,11 +79,6 @@ const char* NameOf(Value value, const Names& pairs) {
   return std::find_if(std::begin(pairs), std::end(pairs),
                       [value](const auto& pair) { return pair.first == value; })
       ->second;
-}
-
-int ParseInt(std::string_view option, std::string_view text, long long least, long long most,
-             std::string_view meaning) {
-  return static_cast<int>(ParseCount(option, text, least, most, meaning));
 }
 
 constexpr const char* kErrorsOfMatrices = "1e-1,1e-2,1e-6";
@@ -210,16 +201,13 @@ SolveOptions Check(const SolveWords& words) {
 }
 
 int DoSolve(const SolveWords& words, const std::string& command) {
-  const std::pair<std::string, std::string (*)(const SolveResult&)> files[] = {
-      {words.json, &ToJson},
-      {words.csv, &ToCsv},
-      {words.markdown, &ToMarkdown},
-      {words.history, &HistoryToCsv},
-      {words.plot, &ToSvg}};
+  const std::vector<ResultFile<SolveResult>> files = {{words.json, &ToJson},
+                                                      {words.csv, &ToCsv},
+                                                      {words.markdown, &ToMarkdown},
+                                                      {words.history, &HistoryToCsv},
+                                                      {words.plot, &ToSvg}};
   const SolveOptions options = Check(words);
-  for (const auto& [path, format] : files) {
-    if (!path.empty()) CheckWritable(path);
-  }
+  CheckWritable(files);
   if (!words.solution.empty()) CheckFolder(words.solution);
   if (!words.exported.empty()) {
     CheckFolder(words.exported);
@@ -228,9 +216,7 @@ int DoSolve(const SolveWords& words, const std::string& command) {
   const SolveResult result = Solve(options, command);
   fmt::print("{}", ToText(result));
   if (!words.output.quiet) fmt::print("{}", ReadingHelp(result));
-  for (const auto& [path, format] : files) {
-    if (!path.empty()) WriteFile(path, format(result));
-  }
+  WriteFiles(files, result);
   if (!words.solution.empty()) WriteSolutions(words.solution, result);
   return result.any_failed() ? kCheckFailed : kFine;
 }
@@ -242,8 +228,7 @@ void AddSolverOptions(CLI::App* solve, SolveWords* words) {
                    "pgs,pgs-sm,bullet-si,bullet-nncg")
       ->type_name("A,B,...")
       ->take_last();
-  const auto add = [solve](const char* name, std::string* word, const char* help,
-                           const char* type) { AddText(solve, name, word, help, type); };
+  const auto add = TextAdder(solve);
   add("--tolerance", &words->tolerance,
       "Natural residual at which a solver stops: relative, default 1e-9; of recorded frames in "
       "m/s, default none",
@@ -277,8 +262,7 @@ Command AddSolveCommand(CLI::App* app) {
   solve->add_option("problem", words->problems.names, "Generators, folders of problems, recordings")
       ->required()
       ->type_name("FILE|GENERATOR");
-  const auto add = [solve](const char* name, std::string* word, const char* help,
-                           const char* type) { AddText(solve, name, word, help, type); };
+  const auto add = TextAdder(solve);
   add("--size", &words->problems.size, "Size of generated problems; see cairn list problems", "N");
   solve->add_option("--set", words->problems.settings, "Sets a parameter of generated problems")
       ->type_name("NAME=VALUE")

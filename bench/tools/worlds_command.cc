@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "tools/worlds_command.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "campaign/worlds_check.h"
-#include "campaign/worlds_json.h"
-#include "campaign/worlds_output.h"
+#include "campaign/campaign_output.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/names.h"
@@ -78,10 +75,7 @@ void KeepKinds(const std::string& typed, std::vector<std::uint64_t>* seeds) {
   for (const bench::Kind& kind : bench::Kinds()) names.emplace_back(kind.name);
   std::vector<const bench::Kind*> kept;
   for (const std::string& word : Split(typed, ',')) {
-    const auto exact = std::find(names.begin(), names.end(), word);
-    const size_t index = exact != names.end()
-                             ? static_cast<size_t>(exact - names.begin())
-                             : FindName("kind", word, names, "'cairn worlds --list' shows all");
+    const size_t index = FindName("kind", word, names, "'cairn worlds --list' shows all");
     kept.push_back(&bench::Kinds()[index]);
   }
   std::erase_if(*seeds, [&](std::uint64_t seed) {
@@ -95,11 +89,8 @@ std::vector<bench::Variant> ParseVariants(const std::string& typed) {
   for (const bench::Variant& variant : bench::CairnVariants()) names.push_back(variant.name);
   std::vector<bench::Variant> variants;
   for (const std::string& word : Split(typed, ',')) {
-    const auto exact = std::find(names.begin(), names.end(), word);
-    const size_t index = exact != names.end()
-                             ? static_cast<size_t>(exact - names.begin())
-                             : FindName("solver", word, names,
-                                        "solvers are " + fmt::format("{}", fmt::join(names, ", ")));
+    const size_t index =
+        FindName("solver", word, names, "solvers are " + fmt::format("{}", fmt::join(names, ", ")));
     variants.push_back(bench::CairnVariants()[index]);
   }
   if (variants.empty()) throw Failure(kUsage, "--solver names no solver");
@@ -117,22 +108,17 @@ bench::CampaignOptions Check(const WorldsWords& words) {
       ParseNumber("--scale", words.scale, 0.01, 1, "the share of their size that worlds have");
   options.trial.audit_every = words.audit || words.report ? 1 : 10;
   const int cores = std::max(1u, std::thread::hardware_concurrency());
-  options.jobs =
-      words.jobs.empty()
-          ? cores
-          : static_cast<int>(ParseCount("--jobs", words.jobs, 1, 1024, "worlds run side by side"));
+  options.jobs = words.jobs.empty()
+                     ? cores
+                     : ParseInt("--jobs", words.jobs, 1, 1024, "worlds run side by side");
   return options;
 }
 
-/// Shows how far it is, and how long it still takes.
 std::vector<bench::WorldResult> RunWithProgress(bench::CampaignOptions options, ProgressMode mode) {
-  using Clock = std::chrono::steady_clock;
   Progress progress(mode);
-  const Clock::time_point start = Clock::now();
-  options.progress = [&, start](size_t done) {
-    const double spent = std::chrono::duration<double>(Clock::now() - start).count();
-    const double left = spent / double(done) * double(options.seeds.size() - done);
-    progress.Show(fmt::format("worlds: {} of {}, {:.0f} s left", done, options.seeds.size(), left));
+  const size_t all = options.seeds.size();
+  options.progress = [&](size_t done) {
+    progress.Show(fmt::format("worlds: {} of {}", done, all), double(done) / double(all));
   };
   return bench::RunWorlds(options);
 }
@@ -150,7 +136,7 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   }
   const bench::CampaignOptions options = Check(words);
   if (!words.json.empty()) CheckWritable(words.json);
-  if (!words.shrink.empty()) MakeFolder(words.shrink);
+  if (!words.shrink.empty()) CheckFolder(words.shrink);
   std::vector<bench::WorldResult> results = RunWithProgress(options, ParseProgress(words.output));
   if (words.bits) CheckBits(options, &results);
   for (const bench::WorldResult& result : results) {
@@ -177,8 +163,7 @@ Command AddWorldsCommand(CLI::App* app) {
   CLI::App* const worlds = app->add_subcommand(
       "worlds", "Run random worlds with Cairn and Bullet, and say which of them go wrong");
   worlds->footer(kWorldsNotes);
-  const auto add = [worlds](const char* name, std::string* word, const char* help,
-                            const char* type) { AddText(worlds, name, word, help, type); };
+  const auto add = TextAdder(worlds);
   add("--seeds", &words->seeds, "Worlds FROM to TO - 1", "FROM:TO");
   add("--seed", &words->seed, "One world", "N");
   add("--solver", &words->solvers,

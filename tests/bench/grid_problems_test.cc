@@ -8,12 +8,8 @@
 #include <vector>
 
 #include "generated.h"
-#include "problems/bearings/infinite_bearing.h"
-#include "problems/bearings/journal_bearing.h"
-#include "problems/bearings/slider.h"
+#include "problems/generators.h"
 #include "problems/grid.h"
-#include "problems/obstacle.h"
-#include "problems/torsion.h"
 
 namespace cairn::problems {
 namespace {

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "cairn/solver.h"
-#include "problems/options/american_put.h"
+#include "problems/generators.h"
 #include "problems/options/option_oracles.h"
-#include "problems/options/two_asset_put.h"
 
 namespace cairn::problems {
 namespace {

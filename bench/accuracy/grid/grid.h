@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,10 @@ GridResult RunCell(const Cell& cell, const GridOptions& options);
 
 /// Names each cell in which Cairn produced NaN, one sentence each; empty if there is none.
 std::vector<std::string> NotNumbers(const std::vector<GridResult>& results);
+
+/// How to read it, a table of sums, and one of the cells that stand out.
+void PrintGrid(const std::vector<GridResult>& results, const GridOptions& options);
+
+nlohmann::ordered_json ToJson(const std::vector<GridResult>& results, const GridOptions& options);
 
 }  // namespace cairn::accuracy

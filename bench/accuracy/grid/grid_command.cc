@@ -7,8 +7,6 @@
 
 #include "accuracy/command.h"
 #include "accuracy/grid/grid.h"
-#include "accuracy/grid/grid_output.h"
-#include "accuracy/report.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/names.h"
@@ -47,7 +45,7 @@ int RunGrid(const Common& common, const GridChoice& choice, GridOptions options,
       results.push_back(RunCell(cell, options));
     }
   }
-  PrintContext("A grid of extremes", context);
+  fmt::print("{}", cli::Origin("A grid of extremes", context));
   PrintGrid(results, options);
   nlohmann::ordered_json json = JsonHead("grid", context);
   json.update(ToJson(results, options));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/grid/grid_output.h"
+#include "accuracy/grid/grid.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "accuracy/report.h"
-#include "frames/markdown.h"
+#include "accuracy/command.h"
 #include "support/json_number.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::accuracy {
 namespace {
@@ -37,7 +37,7 @@ std::string DefectOf(const GridRun& run) {
 }
 
 void AddSums(const std::string& name, const std::vector<const GridResult*>& group,
-             frames::MarkdownTable* table) {
+             cli::TextTable* table) {
   const auto count = [&](auto condition) {
     return std::to_string(std::count_if(group.begin(), group.end(), condition));
   };
@@ -61,18 +61,19 @@ void AddSums(const std::string& name, const std::vector<const GridResult*>& grou
     accepted += r->Of(GridSolver::kSteps).accepted;
     restored += r->Of(GridSolver::kSteps).restored;
   }
-  table->Add({name, std::to_string(group.size()),
-              failed([](const GridRun& run) { return run.not_a_number; }),
-              failed([](const GridRun& run) { return !run.failure.empty() && !run.not_a_number; }),
-              count([](const GridResult* r) { return r->GainsEnergy(); }),
-              count([](const GridResult* r) { return r->Worse(); }),
-              count([](const GridResult* r) { return r->Better(); }), defects,
-              fmt::format("{:g} / {:g}", accepted, restored)});
+  table->rows.push_back(
+      {name, std::to_string(group.size()),
+       failed([](const GridRun& run) { return run.not_a_number; }),
+       failed([](const GridRun& run) { return !run.failure.empty() && !run.not_a_number; }),
+       count([](const GridResult* r) { return r->GainsEnergy(); }),
+       count([](const GridResult* r) { return r->Worse(); }),
+       count([](const GridResult* r) { return r->Better(); }), defects,
+       fmt::format("{:g} / {:g}", accepted, restored)});
 }
 
 void PrintSums(const std::vector<GridResult>& results) {
-  frames::MarkdownTable table({"cells", "number", "NaN", "exploded", "gain energy", "worse",
-                               "better", "defect mm", "steps accepted / restored"});
+  cli::TextTable table = cli::TableOf({"cells", "number", "NaN", "exploded", "gain energy", "worse",
+                                       "better", "defect mm", "steps accepted / restored"});
   std::vector<std::string> names;
   for (const GridResult& result : results) {
     const std::string name = GroupOf(result.cell);
@@ -86,12 +87,12 @@ void PrintSums(const std::vector<GridResult>& results) {
     AddSums(name, group, &table);
   }
   fmt::print("\n## Sums\n\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 void PrintOutstanding(const std::vector<GridResult>& results) {
-  frames::MarkdownTable table({"cell", "what", "steps mm", "sweeps mm", "Bullet mm", "steps energy",
-                               "Bullet energy", "accepted", "restored"});
+  cli::TextTable table = cli::TableOf({"cell", "what", "steps mm", "sweeps mm", "Bullet mm",
+                                       "steps energy", "Bullet energy", "accepted", "restored"});
   int count = 0;
   for (const GridResult& result : results) {
     const GridRun &steps = result.Of(GridSolver::kSteps), &bullet = result.Of(GridSolver::kBullet);
@@ -99,9 +100,10 @@ void PrintOutstanding(const std::vector<GridResult>& results) {
                                          result.GainsEnergy() ? " energy" : "");
     if (what.empty() && result.Of(GridSolver::kSweeps).failure.empty()) continue;
     ++count;
-    table.Add({NameOf(result.cell), what, DefectOf(steps), DefectOf(result.Of(GridSolver::kSweeps)),
-               DefectOf(bullet), Digits(steps.energy_gain), Digits(bullet.energy_gain),
-               std::to_string(steps.accepted), std::to_string(steps.restored)});
+    table.rows.push_back({NameOf(result.cell), what, DefectOf(steps),
+                          DefectOf(result.Of(GridSolver::kSweeps)), DefectOf(bullet),
+                          Digits(steps.energy_gain), Digits(bullet.energy_gain),
+                          std::to_string(steps.accepted), std::to_string(steps.restored)});
   }
   if (count == 0) {
     fmt::print(
@@ -109,7 +111,7 @@ void PrintOutstanding(const std::vector<GridResult>& results) {
     return;
   }
   fmt::print("## Cells that stand out\n\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 Json ToJson(const GridRun& run) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -73,5 +75,10 @@ struct LoopScene {
 std::vector<LoopScene> RunLoops(const LoopOptions& options,
                                 const std::function<void(const std::string&)>& show,
                                 const std::function<bool()>& stop);
+
+/// How to read it, and a table for each scene; loop_tables.py has the statistics.
+void PrintLoop(std::span<const LoopScene> scenes, const LoopOptions& options);
+
+nlohmann::ordered_json ToJson(std::span<const LoopScene> scenes, const LoopOptions& options);
 
 }  // namespace cairn::accuracy

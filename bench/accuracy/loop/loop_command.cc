@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <chrono>
 #include <csignal>
 #include <memory>
@@ -9,8 +11,6 @@
 
 #include "accuracy/command.h"
 #include "accuracy/loop/loop.h"
-#include "accuracy/loop/loop_output.h"
-#include "accuracy/report.h"
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
@@ -54,7 +54,7 @@ int RunLoop(const Common& common, const LoopChoice& choice, LoopOptions options,
         });
     std::signal(SIGINT, SIG_DFL);
   }
-  PrintContext("Scenes in closed loop", context);
+  fmt::print("{}", cli::Origin("Scenes in closed loop", context));
   PrintLoop(scenes, options);
   nlohmann::ordered_json json = JsonHead("loop", context);
   json.update(ToJson(scenes, options));

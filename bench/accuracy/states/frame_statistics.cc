@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/states/frame_statistics.h"
+#include "accuracy/states/states.h"
 
 #include <cmath>
 #include <limits>

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "replay/sample_plan.h"
-#include "run/state_run.h"
+#include "run/scene_run.h"
 #include "support/statistics.h"
 
 namespace cairn::accuracy {
@@ -189,7 +190,19 @@ class Walk {
   SceneStates result_;
 };
 
+constexpr std::pair<std::string_view, double> kGoals[] = {
+    {"chain", 0.01}, {"bridge", 0.1}, {"heavy-top", 0.1}, {"tower", 0.1},  {"pyramid", 0.2},
+    {"wall", 0.2},   {"castle", 0.2}, {"rubble", 1},      {"ragdolls", 1}, {"islands", 1},
+};
+
 }  // namespace
+
+double GoalOf(std::string_view scene) {
+  for (const auto& [name, share] : kGoals) {
+    if (name == scene) return share;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 double StateResult::LeastError() const {
   double least = bullet_error.rms;

@@ -3,8 +3,11 @@
 
 #include <array>
 #include <functional>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accuracy/bullet_trial.h"
@@ -66,5 +69,32 @@ struct SceneStates {
 /// @param show  is told what is being done
 SceneStates MeasureStates(const cli::SceneChoice& scene, const StatesOptions& options,
                           const std::function<void(const std::string&)>& show);
+
+struct Tail {
+  double p50 = 0, p99 = 0, max = 0;
+};
+
+/// What a shadow did over many frames; NaN where it never did it.
+struct FrameStatistics {
+  int frames = 0;
+  double stepped = 0;         ///< Share of frames with a step, kept or not.
+  double restored = 0;        ///< Share of steps that were undone.
+  double factorisations = 0;  ///< Mean.
+  Tail cpu_over, wall_over;   ///< Time above the budget; negative: inside it [us].
+  Tail wall_over_calm;        ///< The same, of frames that were not interrupted [us].
+  int interrupted = 0;
+  Tail step_error;  ///< |time / prediction - 1| of steps, of frames that were not interrupted.
+};
+
+FrameStatistics StatisticsOf(std::span<const ShadowFrame> frames);
+
+/// What the velocity error with steps may be at most, as a share of that of Bullet's 10 iterations
+/// in the same time. NaN for a scene without a goal.
+double GoalOf(std::string_view scene);
+
+/// How to read it, and tables of errors, work, frames and of what was compared.
+void PrintStates(std::span<const SceneStates> scenes, const StatesOptions& options);
+
+nlohmann::ordered_json ToJson(std::span<const SceneStates> scenes, const StatesOptions& options);
 
 }  // namespace cairn::accuracy

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "accuracy/command.h"
-#include "accuracy/report.h"
 #include "accuracy/states/states.h"
-#include "accuracy/states/states_output.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/output_file.h"
@@ -30,7 +30,7 @@ int RunStates(const Common& common, std::uint64_t seed, StatesOptions options,
           MeasureStates(scene, options, [&](const std::string& text) { progress.Show(text); }));
     }
   }
-  PrintContext("Velocity errors on the same states", context);
+  fmt::print("{}", cli::Origin("Velocity errors on the same states", context));
   PrintStates(scenes, options);
   nlohmann::ordered_json json = JsonHead("states", context);
   json.update(ToJson(scenes, options));

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
-#include "accuracy/goals.h"
-#include "accuracy/report.h"
-#include "accuracy/states/frame_statistics.h"
-#include "accuracy/states/states_output.h"
+#include "accuracy/command.h"
+#include "accuracy/states/states.h"
 #include "support/json_number.h"
 
 namespace cairn::accuracy {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/states/states_output.h"
+#include "accuracy/states/states.h"
 
 #include <fmt/format.h>
 
@@ -8,16 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/goals.h"
-#include "accuracy/report.h"
-#include "accuracy/states/frame_statistics.h"
-#include "frames/markdown.h"
+#include "accuracy/command.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::accuracy {
 namespace {
 
-using frames::MarkdownTable;
 using States = std::vector<StateResult>;
 
 /// Spread of the reference over an error that can be told from it.
@@ -78,9 +75,9 @@ std::string Percent(double share) {
 }
 
 void PrintErrors(std::span<const SceneStates> scenes) {
-  MarkdownTable table({"scene", "Bullet", "sweeps", "accelerated", "steps", "sweeps/Bullet",
-                       "accelerated/Bullet", "steps/Bullet", "goal", "", "of max",
-                       "worse than sweeps", "worse than accelerated"});
+  cli::TextTable table = cli::TableOf(
+      {"scene", "Bullet", "sweeps", "accelerated", "steps", "sweeps/Bullet", "accelerated/Bullet",
+       "steps/Bullet", "goal", "", "of max", "worse than sweeps", "worse than accelerated"});
   for (const SceneStates& scene : scenes) {
     const States& states = scene.states;
     if (states.empty()) continue;
@@ -95,36 +92,37 @@ void PrintErrors(std::span<const SceneStates> scenes) {
     };
     const double goal = GoalOf(scene.scene.info->name);
     const double reached = MedianOf(states, ratio(Kind::kSteps));
-    table.Add({std::string(scene.scene.info->name),
-               Digits(MedianOf(states, [](const StateResult& s) { return s.bullet_error.rms; })),
-               rms(Kind::kSweeps), rms(Kind::kAccelerated), rms(Kind::kSteps),
-               Range(states, ratio(Kind::kSweeps)), Range(states, ratio(Kind::kAccelerated)),
-               Range(states, ratio(Kind::kSteps)), Digits(goal), Verdict(reached, goal),
-               Digits(MedianOf(states,
-                               [](const StateResult& s) {
-                                 return s.Of(Kind::kSteps).error.max / s.bullet_error.max;
-                               })),
-               worse(Kind::kSweeps), worse(Kind::kAccelerated)});
+    table.rows.push_back(
+        {std::string(scene.scene.info->name),
+         Digits(MedianOf(states, [](const StateResult& s) { return s.bullet_error.rms; })),
+         rms(Kind::kSweeps), rms(Kind::kAccelerated), rms(Kind::kSteps),
+         Range(states, ratio(Kind::kSweeps)), Range(states, ratio(Kind::kAccelerated)),
+         Range(states, ratio(Kind::kSteps)), Digits(goal), Verdict(reached, goal),
+         Digits(MedianOf(states,
+                         [](const StateResult& s) {
+                           return s.Of(Kind::kSteps).error.max / s.bullet_error.max;
+                         })),
+         worse(Kind::kSweeps), worse(Kind::kAccelerated)});
   }
   fmt::print("\n## Errors in the time of Bullet's solver\n\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 void PrintWork(std::span<const SceneStates> scenes) {
-  MarkdownTable table({"scene", "sweeps worth", "accelerated worth", "steps worth", "sweeps made",
-                       "accelerated", "with steps"});
+  cli::TextTable table = cli::TableOf({"scene", "sweeps worth", "accelerated worth", "steps worth",
+                                       "sweeps made", "accelerated", "with steps"});
   for (const SceneStates& scene : scenes) {
     const States& states = scene.states;
     if (states.empty()) continue;
     const auto made = [&](Kind kind) {
       return Range(states, [kind](const StateResult& s) { return s.Of(kind).frame.sweeps; });
     };
-    table.Add({std::string(scene.scene.info->name), Worth(states, Kind::kSweeps),
-               Worth(states, Kind::kAccelerated), Worth(states, Kind::kSteps), made(Kind::kSweeps),
-               made(Kind::kAccelerated), made(Kind::kSteps)});
+    table.rows.push_back({std::string(scene.scene.info->name), Worth(states, Kind::kSweeps),
+                          Worth(states, Kind::kAccelerated), Worth(states, Kind::kSteps),
+                          made(Kind::kSweeps), made(Kind::kAccelerated), made(Kind::kSteps)});
   }
   fmt::print("\n## What was done in that time\n\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
   fmt::print("- worth: iterations of Bullet until its error is no larger; made: sweeps\n");
 }
 
@@ -133,20 +131,21 @@ std::string Spread(const Tail& tail) {
 }
 
 void PrintFrames(std::span<const SceneStates> scenes) {
-  MarkdownTable table({"scene", "frames", "stepped", "restored", "factorised", "CPU over us",
-                       "wall over us", "wall over us, calm", "interrupted", "prediction p50",
-                       "p99"});
+  cli::TextTable table =
+      cli::TableOf({"scene", "frames", "stepped", "restored", "factorised", "CPU over us",
+                    "wall over us", "wall over us, calm", "interrupted", "prediction p50", "p99"});
   for (const SceneStates& scene : scenes) {
     const FrameStatistics frames = StatisticsOf(scene.frames);
     if (frames.frames == 0) continue;
-    table.Add({std::string(scene.scene.info->name), fmt::format("{}", frames.frames),
-               Percent(frames.stepped), Percent(frames.restored), Digits(frames.factorisations),
-               Spread(frames.cpu_over), Spread(frames.wall_over), Spread(frames.wall_over_calm),
-               fmt::format("{}", frames.interrupted), Percent(frames.step_error.p50),
-               Percent(frames.step_error.p99)});
+    table.rows.push_back({std::string(scene.scene.info->name), fmt::format("{}", frames.frames),
+                          Percent(frames.stepped), Percent(frames.restored),
+                          Digits(frames.factorisations), Spread(frames.cpu_over),
+                          Spread(frames.wall_over), Spread(frames.wall_over_calm),
+                          fmt::format("{}", frames.interrupted), Percent(frames.step_error.p50),
+                          Percent(frames.step_error.p99)});
   }
   fmt::print("\n## All frames, with steps\n\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
   fmt::print(
       "- stepped: frames in which a subspace step ran; restored: of all steps, those undone; "
       "factorised: per frame\n"
@@ -157,9 +156,10 @@ void PrintFrames(std::span<const SceneStates> scenes) {
 }
 
 void PrintTimes(std::span<const SceneStates> scenes) {
-  MarkdownTable table({"scene", "bodies", "rows", "states", "Bullet ms", "set-up", "iterations",
-                       "split", "finish", "Cairn's set-up ms", "its write-back ms", "interrupted",
-                       "reference max", "spread", "converged"});
+  cli::TextTable table =
+      cli::TableOf({"scene", "bodies", "rows", "states", "Bullet ms", "set-up", "iterations",
+                    "split", "finish", "Cairn's set-up ms", "its write-back ms", "interrupted",
+                    "reference max", "spread", "converged"});
   for (const SceneStates& scene : scenes) {
     const States& states = scene.states;
     if (states.empty()) continue;
@@ -172,7 +172,7 @@ void PrintTimes(std::span<const SceneStates> scenes) {
       return Digits(
           MedianOf(states, [&](const StateResult& s) { return s.Of(Kind::kSteps).frame.*part; }));
     };
-    table.Add(
+    table.rows.push_back(
         {std::string(scene.scene.info->name),
          Digits(MedianOf(states, [](const StateResult& s) { return s.bodies; })),
          fmt::format("{:.0f}", MedianOf(states, [](const StateResult& s) { return s.rows; })),
@@ -187,7 +187,7 @@ void PrintTimes(std::span<const SceneStates> scenes) {
          Count(states, [](const StateResult& s) { return s.reference.reached; })});
   }
   fmt::print("\n## What was compared\n\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 /// Where the reference is not what it should be.

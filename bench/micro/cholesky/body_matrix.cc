@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frames/scene_run.h"
+#include "run/scene_run.h"
 
 namespace cairn::micro {
 namespace {
@@ -91,10 +91,10 @@ class Assembly {
 }  // namespace
 
 BodyMatrix MakeBodyMatrix(const std::string& scene) {
-  const frames::SceneChoice choice = frames::ParseScene(scene);
-  frames::SceneRun run(choice);
+  const cli::SceneChoice choice = cli::ParseScene(scene);
+  cli::StateRun run(choice);
   run.Skip(choice.FirstFrame(kFrames));
-  bench::ContactFrame frame = run.Next();
+  bench::ContactFrame frame = run.Record();
   BodyMatrix matrix = Assembly(frame).Take();
   matrix.frame = std::move(frame);
   return matrix;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problems/bearings/infinite_bearing.h"
+#include "problems/generators.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problems/bearings/journal_bearing.h"
+#include "problems/generators.h"
 
 #include <cmath>
 #include <numbers>

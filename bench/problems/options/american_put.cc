@@ -3,7 +3,7 @@
 // tau = sigma^2 (T - t) / 2, k1 = 2 r / sigma^2, k2 = 2 (r - q) / sigma^2 and
 //   V = K exp(-(k2 - 1) x / 2 - ((k2 - 1)^2 / 4 + k1) tau) u(x, tau),   u_tau = u_xx,
 // with the obstacle exp((k2 - 1) x / 2 + ((k2 - 1)^2 / 4 + k1) tau) max(1 - e^x, 0).
-#include "problems/options/american_put.h"
+#include "problems/generators.h"
 
 #include <algorithm>
 #include <array>

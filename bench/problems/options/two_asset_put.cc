@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problems/options/two_asset_put.h"
+#include "problems/generators.h"
 
 #include <algorithm>
 

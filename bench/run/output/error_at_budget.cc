@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/output/error_at_budget.h"
+#include "run/output/run_output.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "run/output/json_output.h"
+#include "run/output/run_output.h"
 
 #include <nlohmann/json.hpp>
 
-#include "compare/run_file.h"
 #include "run/summary.h"
 #include "support/duration.h"
 #include "support/json_number.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "run/output/scaling_table.h"
+#include "run/output/run_output.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "run/summary.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {

@@ -1,42 +1,24 @@
 // SPDX-License-Identifier: MIT
-#include "solve/output/solution_files.h"
-
-#include <fmt/format.h>
-#include <unistd.h>
+#include "solve/output/solve_output.h"
 
 #include <filesystem>
 
 #include "problems/problem_folder.h"
 #include "support/failure.h"
+#include "support/output_file.h"
 
 namespace cairn::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-void Make(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw Failure(kBadInput,
-                  fmt::format("cannot make folder '{}': {}", folder.string(), error.message()));
-  }
-}
-
 }  // namespace
-
-void CheckFolder(const std::string& folder) {
-  Make(folder);
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw Failure(kBadInput, fmt::format("cannot write into folder '{}'", folder));
-  }
-}
 
 void WriteSolutions(const std::string& folder, const SolveResult& result) {
   for (const ProblemResult& problem : result.problems) {
     for (const LcpSolverResult& solver : problem.solvers) {
       const fs::path place = fs::path(folder) / problem.name / solver.label;
-      Make(place);
+      CheckFolder(place);
       try {
         problems::WriteVector(place / "x.mtx", solver.x);
         problems::WriteVector(place / "w.mtx", solver.w);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/output/solve_csv.h"
+#include "solve/output/solve_output.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "run/summary.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/output/solve_plot.h"
+#include "solve/output/solve_output.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,6 @@ LinePlot PlotOf(const SolveResult& result, const ProblemResult& problem) {
     plot.title = problem.name + (errors ? ", velocity error" : ", residual");
     plot.unit = "m/s";
   }
-  plot.x_scale = LinePlot::Scale::kLogarithmic;
   plot.x_label = "time [ms]";
   plot.most_decades = kDecades;
   for (const LcpSolverResult& solver : problem.solvers) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/output/solve_tables.h"
+#include "solve/output/solve_output.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 
-#include "run/summary.h"
 #include "solve/output/solve_frame_tables.h"
 #include "support/duration.h"
 #include "support/phase_names.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {
@@ -39,7 +39,7 @@ std::vector<std::string> NameCells(const SolveResult& result, const ProblemResul
 std::string Count(std::int64_t count) { return count == 0 ? "-" : fmt::format("{}", count); }
 
 /// "340", or "15 + 3" with factorisations.
-std::string Effort(const HistoryPoint& point) {
+std::string EffortText(const HistoryPoint& point) {
   if (point.factorisations == 0) return fmt::format("{}", point.sweeps);
   return fmt::format("{} + {}", point.sweeps, point.factorisations);
 }
@@ -188,7 +188,7 @@ TextTable ErrorTable(const SolveResult& result) {
       std::vector<std::string> row = NameCells(result, problem, solver);
       for (const LevelReached& level : solver.levels) {
         row.push_back(level.first ? FormatTime(level.first->time) : "-");
-        row.push_back(level.first ? Effort(*level.first) : "-");
+        row.push_back(level.first ? EffortText(*level.first) : "-");
       }
       table.rows.push_back(std::move(row));
     }

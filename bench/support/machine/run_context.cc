@@ -84,4 +84,17 @@ Json ToJson(const RunContext& context) {
             {"verdict", context.noise.verdict}}}};
 }
 
+std::string Origin(const std::string& title, const RunContext& context) {
+  std::string text = fmt::format(
+      "# {}\n\n- machine: {}, {} cores, load {}; {}\n"
+      "- build: Cairn {}, {}, {}, kernels for {}; {}\n- command: `{}`\n",
+      title, context.machine.cpu, context.machine.cores, context.machine.load_average,
+      context.noise.verdict, context.build.version, context.build.build_type,
+      context.build.compiler, context.simd_target, DescribeBullet(context.build), context.command);
+#if !defined(__OPTIMIZE__) || !defined(NDEBUG)
+  text += "- WARNING: not an optimised build, what is timed means nothing\n";
+#endif
+  return text;
+}
+
 }  // namespace cairn::cli

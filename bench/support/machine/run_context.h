@@ -23,6 +23,9 @@ struct RunContext {
 /// @param command  what was typed
 RunContext DescribeContext(const std::string& command);
 
+/// A heading, and where, with what and by which command the figures below it were made; Markdown.
+std::string Origin(const std::string& title, const RunContext& context);
+
 /// With the names of Google Benchmark where it has them; the name of the host is nobody's business.
 nlohmann::ordered_json ToJson(const RunContext& context);
 

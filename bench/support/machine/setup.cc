@@ -59,12 +59,11 @@ void ForceTarget(const std::string& name) {
 }  // namespace
 
 Setup ParseSetup(const std::string& threads, const std::string& simd, const std::string& core) {
-  Setup setup{.threads = static_cast<int>(
-                  ParseCount("--threads", threads, 1, 1024, "threads that Cairn may use")),
+  Setup setup{.threads = ParseInt("--threads", threads, 1, 1024, "threads that Cairn may use"),
               .simd = simd,
               .pinned = {}};
   if (core.empty()) return setup;
-  setup.pinned = static_cast<int>(ParseCount("--pin", core, 0, 65535, "a core, counted from 0"));
+  setup.pinned = ParseInt("--pin", core, 0, 65535, "a core, counted from 0");
   if (setup.threads > 1) {
     throw Failure(kUsage, fmt::format("--pin {} with --threads {}: all threads would share that "
                                       "core; leave one of the two out",

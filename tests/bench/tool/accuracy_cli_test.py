@@ -121,15 +121,10 @@ class LoopTest(AccuracyTest):
                              [("bullet-si", "10 iterations")])
             for lane in scene["solvers"]:
                 self.check_lane(lane, scene["judged_by"])
-        self.assertIn("0/3 [0, 56] %", text)  # Wilson's interval of none of three
+        self.assertIn("| 0/3 |", " ".join(text.split()))
         lost = heavy_top["solvers"][-1]["figures"]["height_lost_m"]["runs"]
         self.assertEqual(len(set(lost)), 3, "seeds make no difference")
-        self.assertEqual(len(written["comparisons"]), 2 * 5)
-        for comparison in written["comparisons"]:
-            for test in comparison["scenes"].values():
-                self.assertEqual(test["less"] + test["more"] + test["equal"], 3)
-                self.assertTrue(0.25 <= test["p"] <= 1)  # of three pairs
-        self.assertIn("Compared, 1 ms", text)
+        self.assertIn("## ragdolls (judged by joint gap), 3 seeds", text)
 
     def test_a_run_that_is_out_of_time_prints_what_it_has(self):
         text, written = self.run_json("loop", "--scenes", "heavy-top,tower", "--frames", "8",
@@ -139,18 +134,14 @@ class LoopTest(AccuracyTest):
         self.assertIn("stopped early: heavy-top has 1 seeds", text)
 
     def check_lane(self, lane, judged_by):
-        self.assertEqual((lane["collapsed"], lane["failures"]), (0, []))
+        self.assertEqual((lane["collapsed"], lane["failures"], lane["failed_seeds"]), (0, [], []))
         for name, figure in lane["figures"].items():
             self.assertEqual(len(figure["runs"]), 3)
             if name in (judged_by, "residual_m_s", "time_ms"):
                 for value in figure["runs"]:
                     self.assertTrue(math.isfinite(value))
-                median = figure["median"]
-                self.assertEqual(median["value"], sorted(figure["runs"])[1])
-                self.assertEqual(median["low"], min(figure["runs"]))
-                self.assertEqual(median["high"], max(figure["runs"]))
         if lane["solver"] != "steps":
-            self.assertEqual(lane["figures"]["steps_accepted"]["median"]["value"], 0)
+            self.assertEqual(lane["figures"]["steps_accepted"]["runs"], [0, 0, 0])
 
     def test_bad_input_is_refused_with_a_reason(self):
         self.assertIn("no unit", self.refused(USAGE, "loop", "--budgets", "2"))

@@ -10,7 +10,7 @@ import unittest
 import cli_test
 from cli_test import FINE, SMALL, USAGE, CairnTest
 
-SCHEMA = os.path.join(os.path.dirname(__file__), "..", "..", "docs", "run.schema.json")
+SCHEMA = os.path.join(os.path.dirname(__file__), "..", "..", "..", "docs", "run.schema.json")
 
 
 class SetupTest(CairnTest):

@@ -536,7 +536,8 @@ class StreamTest(SolveTestCase):
 
 class CollectedTest(SolveTestCase):
     def test_small_collected_problems_are_solved(self):
-        repository = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+        tests = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+        repository = os.path.dirname(tests)
         folder = os.environ.get("CAIRN_PROBLEMS") or os.path.join(
             os.path.dirname(repository), "shared", "problems")
         if not os.path.isdir(os.path.join(folder, "open")):
