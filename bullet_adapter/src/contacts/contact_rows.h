@@ -5,9 +5,9 @@
 
 #include "body_table.h"
 #include "cairn/bullet/group_rows.h"
-#include "contact_input.h"
+#include "contacts/contact_input.h"
+#include "contacts/split_impulse.h"
 #include "group_problem.h"
-#include "split_impulse.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/bullet_adapter/life.h"
+#include "tests/bullet_adapter/life/life.h"
 
 #include <iterator>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "twist_memory.h"
+#include "contacts/twist_memory.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "tests/bullet_adapter/life.h"
+#include "tests/bullet_adapter/life/life.h"
 
 namespace cairn::test {
 namespace {

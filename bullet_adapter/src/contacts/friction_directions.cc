@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "friction_directions.h"
+#include "contacts/friction_directions.h"
 
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <LinearMath/btVector3.h>

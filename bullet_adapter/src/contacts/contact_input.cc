@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "contact_input.h"
+#include "contacts/contact_input.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tests/bullet_adapter/life.h"
+#include "tests/bullet_adapter/life/life.h"
 #include "tests/core/support/recycling.h"
 
 namespace cairn::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "contact_points.h"
+#include "contacts/contact_points.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "split_impulse.h"
+#include "contacts/split_impulse.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -11,8 +11,8 @@
 #include "cairn/bullet/group_rows.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
-#include "contact_input.h"
-#include "split_impulse.h"
+#include "contacts/contact_input.h"
+#include "contacts/split_impulse.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "axes.h"
 #include "body_table.h"
 #include "cairn/bullet/precision.h"
+#include "contacts/axes.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

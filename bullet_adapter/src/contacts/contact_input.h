@@ -6,8 +6,8 @@
 
 #include "body_table.h"
 #include "cairn/bullet/precision.h"
-#include "friction_directions.h"
-#include "twist_memory.h"
+#include "contacts/friction_directions.h"
+#include "contacts/twist_memory.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "contact_rows.h"
+#include "contacts/contact_rows.h"
 
 #include <algorithm>
 
