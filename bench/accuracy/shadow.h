@@ -7,7 +7,6 @@
 #include <array>
 
 #include "cairn/settings.h"
-#include "measure/joint_impulses.h"
 #include "measure/substep.h"
 #include "support/machine/stopwatch.h"
 

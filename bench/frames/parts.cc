@@ -12,7 +12,7 @@
 
 #include "frames/span_times.h"
 #include "measure/instrumented_solver.h"
-#include "measure/joint_impulses.h"
+#include "measure/substep.h"
 #include "run/scene_run.h"
 #include "support/machine/cold_caches.h"
 #include "support/machine/run_context.h"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "contestants/contestant.h"
-#include "measure/joint_impulses.h"
 #include "measure/substep.h"
 #include "run/scene_run.h"
 #include "small/small.h"

@@ -13,8 +13,6 @@
 #include "support/names.h"
 #include "support/output_file.h"
 #include "tools/commands.h"
-#include "tools/doctor.h"
-#include "tools/list.h"
 #include "tools/precision.h"
 
 namespace cairn::cli {
