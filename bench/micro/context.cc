@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "micro/context.h"
+#include "micro/sweep_benchmarks.h"
 
 #include <string>
 #include <string_view>

@@ -9,7 +9,7 @@
 #include "micro/cholesky/body_matrix.h"
 #include "pack/block_frame.h"
 #include "runtime/crew.h"
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_products.h"
 #include "step/block_system.h"
 
 namespace cairn::micro {

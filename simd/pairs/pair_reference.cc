@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "simd/pair_reference.h"
+#include "simd/pairs/pair_reference.h"
 
 #include <cmath>
 

@@ -12,8 +12,8 @@
 #include <cmath>
 #include <limits>
 
-#include "simd/front_solve-inl.h"
-#include "simd/front_tile-inl.h"
+#include "simd/fronts/front_solve-inl.h"
+#include "simd/fronts/front_tile-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 
 namespace cairn::simd {
 

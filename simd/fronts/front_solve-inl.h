@@ -7,7 +7,7 @@
 #define CAIRN_SIMD_FRONT_SOLVE_INL_H_
 #endif
 
-#include "simd/front_tile-inl.h"
+#include "simd/fronts/front_tile-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 
-#include "simd/pair_reference.h"
+#include "simd/pairs/pair_reference.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/pair_sweep.cc"
+#define HWY_TARGET_INCLUDE "simd/pairs/pair_sweep.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/pair_sweep-inl.h"
+#include "simd/pairs/pair_sweep-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

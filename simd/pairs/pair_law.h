@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "simd/pair_block.h"
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_block.h"
+#include "simd/pairs/pair_products.h"
 #include "simd/target.h"
 
 namespace cairn::simd {

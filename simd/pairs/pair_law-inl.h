@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-#include "simd/pair_law.h"
+#include "simd/pairs/pair_law.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "simd/front_kernels.h"
+#include "simd/fronts/front_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/front_kernels.cc"
+#define HWY_TARGET_INCLUDE "simd/fronts/front_kernels.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/front_kernels-inl.h"
+#include "simd/fronts/front_kernels-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "simd/row_pack.h"
+#include "simd/rows/row_pack.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/row_pack.cc"
+#define HWY_TARGET_INCLUDE "simd/rows/row_pack.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/row_pack-inl.h"
+#include "simd/rows/row_pack-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

@@ -14,7 +14,7 @@
 
 #include <hwy/highway.h>
 
-#include "simd/front_kernels.h"
+#include "simd/fronts/front_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

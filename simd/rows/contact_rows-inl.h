@@ -12,8 +12,8 @@
 
 #include <algorithm>
 
-#include "simd/contact_bodies-inl.h"
-#include "simd/contact_rows.h"
+#include "simd/rows/contact_bodies-inl.h"
+#include "simd/rows/contact_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "simd/contact_rows.h"
+#include "simd/rows/contact_rows.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/contact_rows.cc"
+#define HWY_TARGET_INCLUDE "simd/rows/contact_rows.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/contact_rows-inl.h"
+#include "simd/rows/contact_rows-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

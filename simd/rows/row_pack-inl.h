@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "simd/row_pack.h"
+#include "simd/rows/row_pack.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

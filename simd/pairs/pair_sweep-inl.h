@@ -9,7 +9,7 @@
 #endif
 
 #include "simd/flush_denormals.h"
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 #include "simd/wide-inl.h"
 
 #if HWY_TARGET != HWY_SCALAR

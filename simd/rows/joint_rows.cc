@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "simd/joint_rows.h"
+#include "simd/rows/joint_rows.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/joint_rows.cc"
+#define HWY_TARGET_INCLUDE "simd/rows/joint_rows.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/joint_rows-inl.h"
+#include "simd/rows/joint_rows-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

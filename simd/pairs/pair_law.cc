@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "simd/pair_law.h"
+#include "simd/pairs/pair_law.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/pair_law.cc"
+#define HWY_TARGET_INCLUDE "simd/pairs/pair_law.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/pair_law-inl.h"
+#include "simd/pairs/pair_law-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

@@ -9,8 +9,8 @@
 
 #include <hwy/highway.h>
 
-#include "simd/contact_body.h"
 #include "simd/lane_vectors-inl.h"
+#include "simd/rows/contact_body.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "simd/contact_body.h"
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
+#include "simd/rows/contact_body.h"
 #include "simd/target.h"
 
 namespace cairn::simd {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_products.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "simd/pair_products.cc"
+#define HWY_TARGET_INCLUDE "simd/pairs/pair_products.cc"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "simd/pair_products-inl.h"
+#include "simd/pairs/pair_products-inl.h"
 
 #if HWY_ONCE
 #include "simd/dispatch-inl.h"

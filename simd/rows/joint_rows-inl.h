@@ -11,8 +11,8 @@
 
 #include <limits>
 
-#include "simd/contact_bodies-inl.h"
-#include "simd/joint_rows.h"
+#include "simd/rows/contact_bodies-inl.h"
+#include "simd/rows/joint_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -3,8 +3,8 @@
 
 #include <type_traits>
 
-#include "simd/pair_block.h"
-#include "simd/row_pack.h"
+#include "simd/pairs/pair_block.h"
+#include "simd/rows/row_pack.h"
 #include "simd/target.h"
 
 namespace cairn::simd {

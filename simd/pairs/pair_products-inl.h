@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_products.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {
