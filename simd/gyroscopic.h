@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 #include "simd/target.h"
 
 namespace cairn::simd {

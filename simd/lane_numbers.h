@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 #include "simd/target.h"
 
 namespace cairn::simd {

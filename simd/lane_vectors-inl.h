@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

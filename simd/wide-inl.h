@@ -11,9 +11,9 @@
 
 #include <hwy/highway.h>
 
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
-// Code without vectors is simd/pair_reference.cc.
+// Code without vectors is simd/pairs/pair_reference.cc.
 #if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "cairn/bullet/group_rows.h"
-#include "contestants/solver_clock.h"
 #include "measure/row_recorder.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::accuracy {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cairn/contact_problem.h"
+#include "measure/contact_frame.h"
 #include "measure/substep.h"
-#include "rigid/contact_frame.h"
 
 namespace cairn::accuracy {
 

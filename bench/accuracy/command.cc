@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "accuracy/command.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/json_number.h"
 #include "support/names.h"
+#include "support/output_file.h"
 
 namespace cairn::accuracy {
 
@@ -23,5 +30,19 @@ void AddScenes(CLI::App* app, Common* common) {
 void AddCount(CLI::App* app, const char* name, int* count, int least, const char* help) {
   app->add_option(name, *count, help)->check(CLI::Range(least, 1000000))->capture_default_str();
 }
+
+nlohmann::ordered_json JsonHead(const std::string& subcommand, const cli::RunContext& context) {
+  return {{"schema_version", 1}, {"subcommand", subcommand}, {"context", cli::ToJson(context)}};
+}
+
+void WriteJson(const std::string& path, const nlohmann::ordered_json& json) {
+  if (!path.empty()) cli::WriteFile(path, json.dump(1) + "\n");
+}
+
+nlohmann::ordered_json ToJson(const bench::VelocityDistance& distance) {
+  return {{"rms_m_s", cli::Number(distance.rms)}, {"max_m_s", cli::Number(distance.max)}};
+}
+
+std::string Digits(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3g}", value); }
 
 }  // namespace cairn::accuracy

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "CLI/CLI.hpp"
+#include "measure/velocity_norm.h"
 #include "run/scene_choice.h"
 #include "support/command.h"
+#include "support/machine/run_context.h"
 #include "support/progress.h"
 
 namespace cairn::accuracy {
@@ -31,5 +34,17 @@ void AddCount(CLI::App* app, const char* name, int* count, int least, const char
 cli::Command AddStatesCommand(CLI::App* app);
 cli::Command AddLoopCommand(CLI::App* app);
 cli::Command AddGridCommand(CLI::App* app);
+
+/// Of a file: who wrote it, in which form, and under which circumstances.
+nlohmann::ordered_json JsonHead(const std::string& subcommand, const cli::RunContext& context);
+
+/// Does nothing without a path. @throws cli::Failure
+void WriteJson(const std::string& path, const nlohmann::ordered_json& json);
+
+/// {"rms_m_s": ..., "max_m_s": ...}
+nlohmann::ordered_json ToJson(const bench::VelocityDistance& distance);
+
+/// Three digits: "0.00123", "-" for what was not measured.
+std::string Digits(double value);
 
 }  // namespace cairn::accuracy

@@ -7,9 +7,8 @@
 #include <array>
 
 #include "cairn/settings.h"
-#include "contestants/thread_stopwatch.h"
-#include "measure/joint_impulses.h"
 #include "measure/substep.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::accuracy {
 

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "campaign/worlds_check.h"
+#include "campaign/campaign_output.h"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <system_error>
 
 #include "simd/target.h"
-#include "support/failure.h"
 #include "support/output_file.h"
 #include "worlds/shrink.h"
 
@@ -73,7 +71,7 @@ void CheckBits(const bench::CampaignOptions& options, std::vector<bench::WorldRe
 std::string ShrinkFailures(const bench::CampaignOptions& options,
                            const std::vector<bench::WorldResult>& results,
                            const std::string& folder) {
-  MakeFolder(folder);
+  CheckFolder(folder);
   std::string text;
   for (const bench::WorldResult& result : results) {
     for (size_t i = 0; i < options.variants.size(); ++i) {
@@ -81,12 +79,6 @@ std::string ShrinkFailures(const bench::CampaignOptions& options,
     }
   }
   return text;
-}
-
-void MakeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Failure(kBadInput, fmt::format("{}: {}", folder, error.message()));
 }
 
 std::string DescribeWorld(const bench::WorldSeed& seed) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "campaign/worlds_json.h"
+#include "campaign/campaign_output.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "run/run_context.h"
 #include "support/json_number.h"
+#include "support/machine/run_context.h"
 
 namespace cairn::cli {
 namespace {

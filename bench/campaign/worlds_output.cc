@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "campaign/worlds_output.h"
+#include "campaign/campaign_output.h"
 
 #include <fmt/format.h>
 

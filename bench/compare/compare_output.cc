@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "compare/compare_output.h"
+#include "compare/comparison.h"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "run/summary.h"
 #include "support/json_number.h"
 #include "support/text_table.h"
 

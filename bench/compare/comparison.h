@@ -58,4 +58,11 @@ struct Comparison {
 /// later one lacks what the earlier one has.
 Comparison Compare(const RunFile& before, const RunFile& after, const Thresholds& thresholds);
 
+/// A row for each lane, below them the sentences.
+std::string ToText(const Comparison& comparison);
+
+/// The same, "schema_version": 1. Ratios are of the later run and the earlier; what was not
+/// measured is null.
+std::string ToJson(const Comparison& comparison);
+
 }  // namespace cairn::cli

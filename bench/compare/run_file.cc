@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "run/result.h"
 #include "support/failure.h"
 
 namespace cairn::cli {

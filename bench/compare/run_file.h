@@ -6,9 +6,6 @@
 
 namespace cairn::cli {
 
-/// The version of what `cairn run --json` writes, and of what `cairn compare` reads.
-inline constexpr int kRunSchema = 1;
-
 /// Values of each repetition and frame; NaN where a frame does not count.
 using Repetitions = std::vector<std::vector<double>>;
 

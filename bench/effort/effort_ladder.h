@@ -9,9 +9,15 @@
 #include "contestants/contestant.h"
 #include "contestants/solver_registry.h"
 #include "measure/substep.h"
-#include "run/result.h"
 
 namespace cairn::cli {
+
+/// What a solver reached with some effort on a sampled state.
+struct CurvePoint {
+  double time = 0;   ///< [ms]
+  double error = 0;  ///< Velocity error [m/s].
+  int iterations = 0, factorisations = 0;
+};
 
 /// A solver with more and more to spend: how its error falls with time, on given states.
 ///

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "measure/reference.h"
-#include "run/result.h"
+#include "support/statistics.h"
 
 namespace cairn::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frames/budget.h"
+#include "frames/experiments.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,10 @@
 #include <span>
 
 #include "frames/frame_solver.h"
-#include "frames/markdown.h"
-#include "frames/size_series.h"
+#include "run/scene_run.h"
+#include "support/machine/run_context.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::frames {
 namespace {
@@ -29,11 +30,11 @@ struct Lane {
   explicit Lane(const Settings& settings)
       : solver(settings), budget_us(static_cast<double>(settings.budget.time().count()) * 1e-3) {}
 
-  void Keep(const SolveTime& time) {
+  void Keep(const cli::ThreadTime& time) {
     const Report& report = solver.report();
-    wall.push_back(time.wall_us - budget_us);
-    cpu.push_back(time.cpu_us - budget_us);
-    if (!time.preempted) wall_calm.push_back(time.wall_us - budget_us);
+    wall.push_back(1e3 * time.wall - budget_us);
+    cpu.push_back(1e3 * time.cpu - budget_us);
+    if (!time.preempted) wall_calm.push_back(1e3 * time.wall - budget_us);
     sweeps.push_back(report.sweeps);
     energy.push_back(report.residual_energy);
     residual_max.push_back(report.residual_max);
@@ -62,13 +63,13 @@ Settings Under(double budget_ms, const BudgetOptions& options) {
 }
 
 std::vector<ContactFrame> Record(const SceneChoice& scene, const BudgetOptions& options) {
-  SceneRun run(scene);
+  cli::StateRun run(scene);
   const int first = scene.FirstFrame(options.first);
   run.Skip(first);
   std::vector<ContactFrame> frames;
   std::int64_t rows = 0;
   for (int i = first; i <= first + options.last - options.first && rows < options.most_rows; ++i) {
-    frames.push_back(run.Next());
+    frames.push_back(run.Record());
     rows += static_cast<std::int64_t>(frames.back().rows.size());
   }
   return frames;
@@ -96,7 +97,7 @@ std::vector<Lane> SolveAll(const std::vector<ContactFrame>& frames, const Budget
     for (size_t k = 0; k < lanes.size(); ++k) {
       // the order changes, so that no lane always finds the caches as the same other one left them
       Lane& lane = lanes[(k + static_cast<size_t>(i + warm_up)) % lanes.size()];
-      const SolveTime time = lane.solver.Solve(frame);
+      const cli::ThreadTime time = lane.solver.Solve(frame);
       if (i < 0) continue;
       lane.Keep(time);
       if (i % kCheckEvery == 0) lane.Check(frame);
@@ -117,16 +118,16 @@ double Over(const std::vector<double>& overshoots) {
       std::count_if(overshoots.begin(), overshoots.end(), [](double us) { return us > 0; }));
 }
 
-void AddRow(const std::string& name, const Lane& lane, double floor, MarkdownTable* table) {
+void AddRow(const std::string& name, const Lane& lane, double floor, cli::TextTable* table) {
   const double solves = static_cast<double>(lane.wall.size());
-  table->Add({name, fmt::format("{:g}", lane.budget_us * 1e-3), fmt::format("{:.0f}", floor),
-              Spread(lane.cpu), Spread(lane.wall), Spread(lane.wall_calm),
-              Percent(Over(lane.cpu), solves), Percent(Over(lane.wall), solves),
-              Percent(solves - static_cast<double>(lane.wall_calm.size()), solves),
-              fmt::format("{:.0f}", Median(lane.sweeps)), Percent(lane.not_by_clock, solves),
-              fmt::format("{:.4g}", Median(lane.energy)),
-              fmt::format("{:.4g}", Median(lane.residual_max)),
-              fmt::format("{:.1e}", lane.largest_error)});
+  table->rows.push_back(
+      {name, fmt::format("{:g}", lane.budget_us * 1e-3), fmt::format("{:.0f}", floor),
+       Spread(lane.cpu), Spread(lane.wall), Spread(lane.wall_calm), Percent(Over(lane.cpu), solves),
+       Percent(Over(lane.wall), solves),
+       Percent(solves - static_cast<double>(lane.wall_calm.size()), solves),
+       fmt::format("{:.0f}", Median(lane.sweeps)), Percent(lane.not_by_clock, solves),
+       fmt::format("{:.4g}", Median(lane.energy)), fmt::format("{:.4g}", Median(lane.residual_max)),
+       fmt::format("{:.1e}", lane.largest_error)});
 }
 
 /// What a larger budget has to make smaller.
@@ -147,7 +148,8 @@ void NoteRises(const std::string& name, const std::vector<Lane>& lanes,
 }  // namespace
 
 void PrintBudgets(const BudgetOptions& options, const std::string& command) {
-  PrintOrigin("Budget::Time on frames of the scenes", command);
+  fmt::print("{}",
+             cli::Origin("Budget::Time on frames of the scenes", cli::DescribeContext(command)));
   fmt::print(
       "- times over the budget in us, p50 / p99 / p99.9 / max; negative: inside it; CPU is that of "
       "the calling thread;\n  calm: wall time of the solves that were not preempted\n"
@@ -155,9 +157,10 @@ void PrintBudgets(const BudgetOptions& options, const std::string& command) {
       "- {} solves a row, budgets in turn on each frame; min_sweeps {}, threads {}\n"
       "- check: largest relative difference of residual_energy and Measure(), every {}th solve\n",
       options.solves, options.min_sweeps, options.threads, kCheckEvery);
-  MarkdownTable table({"scene", "budget ms", "floor us", "CPU over us", "wall over us",
-                       "calm wall over us", "CPU over %", "wall over %", "preempted %",
-                       "sweeps p50", "not by clock %", "energy p50", "max p50", "check"});
+  cli::TextTable table =
+      cli::TableOf({"scene", "budget ms", "floor us", "CPU over us", "wall over us",
+                    "calm wall over us", "CPU over %", "wall over %", "preempted %", "sweeps p50",
+                    "not by clock %", "energy p50", "max p50", "check"});
   std::vector<std::string> notes;
   for (const SceneChoice& scene : options.scenes) {
     const std::vector<ContactFrame> frames = Record(scene, options);
@@ -172,7 +175,7 @@ void PrintBudgets(const BudgetOptions& options, const std::string& command) {
     NoteRises(name, lanes, &notes);
   }
   fmt::print("\n");
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
   for (const std::string& note : notes) fmt::print("- {}\n", note);
   if (notes.empty()) fmt::print("- medians of the residuals fall with every larger budget\n");
 }

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "frames/cost.h"
+#include "frames/experiments.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <iterator>
+#include <map>
+#include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "frames/frame_solver.h"
-#include "frames/markdown.h"
+#include "run/scene_run.h"
+#include "support/machine/run_context.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::frames {
 namespace {
@@ -21,6 +27,27 @@ constexpr int kFew = 10, kMany = 20;
 /// Frames that are looked at for one of another structure than the frame before.
 constexpr int kLookAhead = 20;
 
+using Pair = std::tuple<std::uint64_t, std::uint64_t, int>;  // two ids, rows
+
+std::set<Pair> PairsOf(const bench::ContactFrame& frame) {
+  const auto id = [&](int body) { return body == kWorld ? 0 : frame.bodies[body].id; };
+  std::map<std::pair<std::uint64_t, std::uint64_t>, int> rows;
+  for (const Row& row : frame.rows) ++rows[std::minmax({id(row.body_a), id(row.body_b)})];
+  std::set<Pair> pairs;
+  for (const auto& [bodies, count] : rows) pairs.emplace(bodies.first, bodies.second, count);
+  return pairs;
+}
+
+/// Body pairs, each with its number of rows, that only one of the frames has. Bodies are told apart
+/// by Body::id.
+int ChangedPairs(const bench::ContactFrame& a, const bench::ContactFrame& b) {
+  const std::set<Pair> of_a = PairsOf(a), of_b = PairsOf(b);
+  std::vector<Pair> changed;
+  std::set_symmetric_difference(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                                std::back_inserter(changed));
+  return static_cast<int>(changed.size());
+}
+
 /// Two neighbouring frames, of different structure if there are any.
 struct Neighbours {
   ContactFrame before, after;
@@ -30,14 +57,14 @@ struct Neighbours {
 };
 
 Neighbours FindNeighbours(const SceneChoice& scene, int first) {
-  SceneRun run(scene);
+  cli::StateRun run(scene);
   run.Skip(first);
   Neighbours found;
-  found.before = run.Next();
-  found.after = run.Next();
+  found.before = run.Record();
+  found.after = run.Record();
   found.changed = ChangedPairs(found.before, found.after);
   for (int i = 0; i < kLookAhead && found.changed == 0; ++i) {
-    found.before = std::exchange(found.after, run.Next());
+    found.before = std::exchange(found.after, run.Record());
     found.changed = ChangedPairs(found.before, found.after);
   }
   found.copy = found.before;
@@ -83,10 +110,10 @@ class Lane {
 
  private:
   double Time(const ContactFrame& frame, FrameSolver* solver, std::vector<double>* wall) const {
-    const SolveTime time = solver->Solve(frame);
-    const double to_row = 1e3 / static_cast<double>(frame.rows.size());
-    if (wall != nullptr) wall->push_back(time.wall_us * to_row);
-    return (threads_ == 1 ? time.cpu_us : time.wall_us) * to_row;
+    const cli::ThreadTime time = solver->Solve(frame);
+    const double to_row = 1e6 / static_cast<double>(frame.rows.size());
+    if (wall != nullptr) wall->push_back(time.wall * to_row);
+    return (threads_ == 1 ? time.cpu : time.wall) * to_row;
   }
 
   int threads_;
@@ -98,7 +125,7 @@ std::string OfTenSweeps(const Lane& lane, double ns) {
   return fmt::format("{:.1f} ({:.0f} %)", ns, 100 * ns / (10 * lane.sweep()));
 }
 
-void AddRow(const SceneChoice& scene, const SeriesOptions& options, MarkdownTable* table) {
+void AddRow(const SceneChoice& scene, const SeriesOptions& options, cli::TextTable* table) {
   const Neighbours frames = FindNeighbours(scene, scene.FirstFrame(options.frame));
   Lane one(1), two(2);
   for (Lane* lane : {&one, &two}) {
@@ -109,20 +136,20 @@ void AddRow(const SceneChoice& scene, const SeriesOptions& options, MarkdownTabl
     one.Round(frames, round % 2);
     two.Round(frames, round % 2);
   }
-  table->Add({NameOf(scene), fmt::format("{}", frames.before.rows.size()),
-              fmt::format("{}", frames.changed), fmt::format("{:.3f}", one.sweep()),
-              fmt::format("{:.3f}", two.sweep()),
-              fmt::format("{:.2f}", one.wall_sweep(0.5) / two.wall_sweep(0.5)),
-              fmt::format("{:.2f}", one.wall_sweep(0.1) / two.wall_sweep(0.1)),
-              OfTenSweeps(one, one.steady()), OfTenSweeps(one, one.copied()),
-              OfTenSweeps(one, one.changed()), OfTenSweeps(two, two.steady()),
-              OfTenSweeps(two, two.changed())});
+  table->rows.push_back({NameOf(scene), fmt::format("{}", frames.before.rows.size()),
+                         fmt::format("{}", frames.changed), fmt::format("{:.3f}", one.sweep()),
+                         fmt::format("{:.3f}", two.sweep()),
+                         fmt::format("{:.2f}", one.wall_sweep(0.5) / two.wall_sweep(0.5)),
+                         fmt::format("{:.2f}", one.wall_sweep(0.1) / two.wall_sweep(0.1)),
+                         OfTenSweeps(one, one.steady()), OfTenSweeps(one, one.copied()),
+                         OfTenSweeps(one, one.changed()), OfTenSweeps(two, two.steady()),
+                         OfTenSweeps(two, two.changed())});
 }
 
 }  // namespace
 
 void PrintCosts(const SeriesOptions& options, const std::string& command) {
-  PrintOrigin("What a frame costs", command);
+  fmt::print("{}", cli::Origin("What a frame costs", cli::DescribeContext(command)));
   fmt::print(
       "- ns per row, medians of {} rounds, in turn; 1 thread: CPU time, 2 threads: wall time\n"
       "- sweep: difference of solves of {} and {} sweeps; 1 / 2: its wall time with 1 thread over "
@@ -133,10 +160,11 @@ void PrintCosts(const SeriesOptions& options, const std::string& command) {
       "has a solver of its own\n\n",
       options.rounds, kFew, kMany);
   std::fflush(stdout);
-  MarkdownTable table({"scene", "rows", "changed pairs", "sweep 1", "sweep 2", "1 / 2",
-                       "1 / 2 fast", "steady 1", "copy 1", "changed 1", "steady 2", "changed 2"});
+  cli::TextTable table =
+      cli::TableOf({"scene", "rows", "changed pairs", "sweep 1", "sweep 2", "1 / 2", "1 / 2 fast",
+                    "steady 1", "copy 1", "changed 1", "steady 2", "changed 2"});
   for (const SceneChoice& scene : options.scenes) AddRow(scene, options, &table);
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 }  // namespace cairn::frames

@@ -6,15 +6,10 @@
 #include "cairn/report.h"
 #include "cairn/settings.h"
 #include "cairn/solver.h"
-#include "rigid/contact_frame.h"
+#include "measure/contact_frame.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::frames {
-
-struct SolveTime {
-  double wall_us = 0;
-  double cpu_us = 0;       ///< Of the thread that called.
-  bool preempted = false;  ///< It was taken off its core meanwhile.
-};
 
 /// A solver with the memory that it writes to, so that only Solve() itself is timed.
 class FrameSolver {
@@ -22,7 +17,7 @@ class FrameSolver {
   explicit FrameSolver(const Settings& settings) : solver_(settings) {}
 
   /// Solves from the warm start of the frame. @throws std::runtime_error if it is refused.
-  SolveTime Solve(const bench::ContactFrame& frame);
+  cli::ThreadTime Solve(const bench::ContactFrame& frame);
 
   Settings& settings() { return solver_.settings(); }
   const Report& report() const { return report_; }
@@ -35,8 +30,5 @@ class FrameSolver {
   std::vector<double> impulses_;
   std::vector<Velocity> velocities_;
 };
-
-/// Plain sweeps, as many as asked: nothing else ends a Solve().
-Settings Sweeps(int count, int threads);
 
 }  // namespace cairn::frames

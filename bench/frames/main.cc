@@ -9,28 +9,24 @@
 #include <vector>
 
 #include "CLI/CLI.hpp"
-#include "frames/budget.h"
-#include "frames/cost.h"
-#include "frames/parts.h"
-#include "frames/step.h"
-#include "frames/swap.h"
-#include "frames/threads.h"
+#include "frames/experiments.h"
+#include "support/command_line.h"
 
 namespace cairn::frames {
 namespace {
 
-std::vector<SceneChoice> ParseScenes(const std::vector<std::string>& words) {
+std::vector<SceneChoice> ParseScenes(const std::vector<std::string>& words,
+                                     const std::string& size = "") {
   std::vector<SceneChoice> scenes;
-  for (const std::string& word : words) scenes.push_back(ParseScene(word));
+  for (const std::string& word : words) scenes.push_back(cli::ParseScene(word, size));
   return scenes;
 }
 
-/// As it was typed, less the folder of the program.
-std::string CommandOf(int count, char** arguments) {
-  const std::string program = arguments[0];
-  std::string command = program.substr(program.rfind('/') + 1);
-  for (int i = 1; i < count; ++i) command += fmt::format(" {}", arguments[i]);
-  return command;
+/// pyramid3d of these sizes.
+std::vector<SceneChoice> Pyramids(const std::vector<int>& sizes) {
+  std::vector<SceneChoice> scenes;
+  for (const int size : sizes) scenes.push_back(cli::ParseScene("pyramid3d", std::to_string(size)));
+  return scenes;
 }
 
 void AddScenes(CLI::App* app, std::vector<std::string>* words) {
@@ -75,28 +71,17 @@ void AddBudget(CLI::App* app, BudgetOptions* options) {
 
 /// What was typed behind the options of `cairn_frames parts`.
 struct PartsWords {
-  PartsOptions options;
+  WindowOptions options;
   std::vector<std::string> scenes = {"castle", "pyramid:100", "ragdolls:136", "islands"};
-  int size = 0;
+  std::string size;
   bool no_steps = false;
 };
 
 void AddParts(CLI::App* app, PartsWords* words) {
   AddScenes(app, &words->scenes);
   AddFrames(app, &words->options.frame, &words->options.frames);
-  app->add_option("--size", words->size, "Of scenes that are named without one")
-      ->check(CLI::Range(1, 1000000));
+  app->add_option("--size", words->size, "Of scenes that are named without one");
   app->add_flag("--no-steps", words->no_steps, "Sweeps alone");
-}
-
-PartsOptions Check(const PartsWords& words) {
-  PartsOptions options = words.options;
-  options.scenes = ParseScenes(words.scenes);
-  for (SceneChoice& scene : options.scenes) {
-    if (scene.size == 0) scene.size = words.size;
-  }
-  if (words.no_steps) options.steps = Steps::kNone;
-  return options;
 }
 
 int Main(int count, char** arguments) {
@@ -124,7 +109,7 @@ int Main(int count, char** arguments) {
   threads_app->add_option("--size", sizes, "Of pyramid3d; may be repeated");
   AddSeries(threads_app, &threads);
 
-  SwapOptions swap;
+  WindowOptions swap{.scenes = {}, .frame = 60, .frames = 40};
   std::vector<std::string> swap_scenes = {"pyramid:100", "castle",   "pyramid3d",    "wall",
                                           "rubble@240",  "ragdolls", "ragdolls:136", "islands",
                                           "bridge",      "chain",    "tower"};
@@ -133,7 +118,7 @@ int Main(int count, char** arguments) {
   AddScenes(swap_app, &swap_scenes);
   AddFrames(swap_app, &swap.frame, &swap.frames);
 
-  StepOptions step;
+  WindowOptions step;
   std::vector<std::string> step_scenes = swap_scenes;
   CLI::App* const step_app = app.add_subcommand("step", "Whole steps of a world");
   AddScenes(step_app, &step_scenes);
@@ -144,7 +129,7 @@ int Main(int count, char** arguments) {
   AddParts(parts_app, &parts);
 
   CLI11_PARSE(app, count, arguments);
-  const std::string command = CommandOf(count, arguments);
+  const std::string command = cli::WithoutPaths("cairn_frames", {arguments + 1, arguments + count});
   if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
   if (budget_app->parsed()) {
     budget.scenes = ParseScenes(budget_scenes);
@@ -156,7 +141,8 @@ int Main(int count, char** arguments) {
     swap.scenes = ParseScenes(swap_scenes);
     PrintSwaps(swap, command);
   } else if (parts_app->parsed()) {
-    PrintParts(Check(parts), command);
+    parts.options.scenes = ParseScenes(parts.scenes, parts.size);
+    PrintParts(parts.options, parts.no_steps ? Steps::kNone : Steps::kWherePredicted, command);
   } else if (step_app->parsed()) {
     step.scenes = ParseScenes(step_scenes);
     PrintSteps(step, command);
@@ -168,6 +154,22 @@ int Main(int count, char** arguments) {
 }
 
 }  // namespace
+
+std::string NameOf(const SceneChoice& scene) {
+  const bool usual = scene.size == scene.info->default_size;
+  return usual ? std::string(scene.info->name) : fmt::format("{} {}", scene.info->name, scene.size);
+}
+
+Settings Sweeps(int count, int threads) {
+  Settings settings;
+  settings.method = Method::kPgs;
+  settings.max_sweeps = count;
+  settings.tolerance = 0;
+  settings.min_progress = 0;
+  settings.threads = threads;
+  return settings;
+}
+
 }  // namespace cairn::frames
 
 int main(int count, char** arguments) {

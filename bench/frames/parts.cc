@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frames/parts.h"
+#include "frames/experiments.h"
 
 #include <cairn/bullet/constraint_solver.h>
 #include <fmt/format.h>
@@ -10,14 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "contestants/thread_stopwatch.h"
-#include "frames/markdown.h"
-#include "frames/size_series.h"
 #include "frames/span_times.h"
 #include "measure/instrumented_solver.h"
-#include "measure/joint_impulses.h"
-#include "support/cold_caches.h"
+#include "measure/substep.h"
+#include "run/scene_run.h"
+#include "support/machine/cold_caches.h"
+#include "support/machine/run_context.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::frames {
 namespace {
@@ -181,31 +182,20 @@ class Dissection {
   cli::ColdCaches* caches_;
 };
 
-Settings SettingsOf(const PartsOptions& options) {
-  Settings settings;
-  if (options.steps == Steps::kNone) settings.k_sm = 0;
-  return settings;
-}
-
-Times TimesOf(const SceneChoice& choice, const PartsOptions& options, cli::ColdCaches* caches) {
-  const Settings settings = SettingsOf(options);
+Times TimesOf(const SceneChoice& choice, const WindowOptions& options, const Settings& settings,
+              cli::ColdCaches* caches) {
   bullet::ConstraintSolver driver(settings);
-  bench::InstrumentedSolver instrumented(&driver);
-  bench::World world(&instrumented);
-  const auto scene = bench::Make(*bench::FindScene(choice.name));
-  scene->Build(&world, {.size = choice.size});
+  cli::SceneRun run(choice, &driver);
   Dissection dissection(settings, caches);
   const int first = choice.FirstFrame(options.frame);
   // some frames before the first, in which solvers learn what they would know
   constexpr int kLearning = 20;
-  for (int frame = 0; frame < first + options.frames; ++frame) {
-    if (frame + kLearning >= first) {
-      instrumented.ProbeNext([&](Substep* substep, const btContactSolverInfo& info) {
-        dissection.Look(*substep, info, frame >= first);
-      });
-    }
-    scene->BeforeStep(&world, frame);
-    world.Step();
+  run.Skip(std::max(0, first - kLearning));
+  while (run.frame() < first + options.frames) {
+    const bool keep = run.frame() >= first;
+    run.StepAfter([&](Substep* substep, const btContactSolverInfo& info) {
+      dissection.Look(*substep, info, keep);
+    });
   }
   return std::move(dissection.result);
 }
@@ -232,8 +222,11 @@ void AddColumns(const Times& times, std::vector<std::vector<std::string>>* rows)
 
 }  // namespace
 
-void PrintParts(const PartsOptions& options, const std::string& command) {
-  PrintOrigin("Parts of a substep: Cairn in Bullet's worlds, one thread", command);
+void PrintParts(const WindowOptions& options, Steps steps, const std::string& command) {
+  Settings settings;
+  if (steps == Steps::kNone) settings.k_sm = 0;
+  fmt::print("{}", cli::Origin("Parts of a substep: Cairn in Bullet's worlds, one thread",
+                               cli::DescribeContext(command)));
   fmt::print(
       "- {} frames in a row; each substep is solved again by solvers beside the one that drives "
       "the world;\n  medians of those in which the thread kept its core, wall clock, us, and "
@@ -244,8 +237,7 @@ void PrintParts(const PartsOptions& options, const std::string& command) {
       "- other: what has no clock, such as the pattern of a factor where bodies touch anew, copies "
       "of states\n  that a step may go back to, and checks\n"
       "- together: with clocks around each part; without clocks: the substep alone\n\n",
-      options.frames,
-      options.steps == Steps::kNone ? "no steps" : "steps where they are predicted to pay",
+      options.frames, steps == Steps::kNone ? "no steps" : "steps where they are predicted to pay",
       cli::ColdCaches::kBytes >> 20);
   std::vector<std::string> columns = {"part"};
   std::vector<std::vector<std::string>> rows;
@@ -258,12 +250,12 @@ void PrintParts(const PartsOptions& options, const std::string& command) {
       columns.push_back(
           fmt::format("{} {} us", NameOf(scene), emptied == nullptr ? "hot" : "cold"));
       columns.push_back("share");
-      AddColumns(TimesOf(scene, options, emptied), &rows);
+      AddColumns(TimesOf(scene, options, settings, emptied), &rows);
     }
   }
-  MarkdownTable table(columns);
-  for (std::vector<std::string>& row : rows) table.Add(std::move(row));
-  table.Print();
+  cli::TextTable table = cli::TableOf(std::move(columns));
+  table.rows = std::move(rows);
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 }  // namespace cairn::frames

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frames/step.h"
+#include "frames/experiments.h"
 
 #include <cairn/bullet/constraint_solver.h>
 #include <fmt/format.h>
@@ -7,39 +7,33 @@
 #include <chrono>
 
 #include "frames/frame_solver.h"
-#include "frames/markdown.h"
-#include "frames/size_series.h"
 #include "measure/instrumented_solver.h"
+#include "run/scene_run.h"
+#include "support/duration.h"
+#include "support/machine/run_context.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::frames {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kIterations = 10;
-
-double Microseconds(std::chrono::nanoseconds time) {
-  return 1e-3 * static_cast<double>(time.count());
-}
 
 /// A scene in a world of its own.
 class TimedWorld {
  public:
-  TimedWorld(const SceneChoice& choice, btConstraintSolver* solver)
-      : timed_(solver), world_(&timed_), scene_(bench::Make(*bench::FindScene(choice.name))) {
-    scene_->Build(&world_, {.size = choice.size});
-    world_.solver_info().m_numIterations = kIterations;
+  TimedWorld(const SceneChoice& choice, btConstraintSolver* solver) : run_(choice, solver) {
+    run_.world().solver_info().m_numIterations = kIterations;
   }
 
-  void Step(int frame, bool keep) {
-    scene_->BeforeStep(&world_, frame);
-    timed_.TakeTime();
-    const Clock::time_point start = Clock::now();
-    world_.Step();
-    const double step = Microseconds(Clock::now() - start);
+  void Step(bool keep) {
+    run_.TakeTime();
+    const cli::ThreadStopwatch stopwatch;
+    run_.Step();
+    const double step = 1e3 * stopwatch.Read().wall;
     if (!keep) return;
-    const double solver = Microseconds(timed_.TakeTime());
+    const double solver = 1e3 * cli::Milliseconds(run_.TakeTime());
     whole.push_back(step);
     inside.push_back(solver);
     outside.push_back(step - solver);
@@ -48,27 +42,28 @@ class TimedWorld {
   std::vector<double> whole, inside, outside;  ///< [us]
 
  private:
-  bench::InstrumentedSolver timed_;
-  bench::World world_;
-  std::unique_ptr<bench::Scene> scene_;
+  cli::SceneRun run_;
 };
 
 }  // namespace
 
-void PrintSteps(const StepOptions& options, const std::string& command) {
-  PrintOrigin("Whole steps of a world: ten iterations, no subspace step, one thread", command);
+void PrintSteps(const WindowOptions& options, const std::string& command) {
+  fmt::print("{}",
+             cli::Origin("Whole steps of a world: ten iterations, no subspace step, one thread",
+                         cli::DescribeContext(command)));
   fmt::print("- two worlds in turn, {} frames; medians, wall clock, milliseconds\n\n",
              options.frames);
-  MarkdownTable table({"scene", "step, Bullet", "of it solver", "step, Cairn", "of it solver",
-                       "outside the solver", "ratio of steps", "ratio of solvers"});
+  cli::TextTable table =
+      cli::TableOf({"scene", "step, Bullet", "of it solver", "step, Cairn", "of it solver",
+                    "outside the solver", "ratio of steps", "ratio of solvers"});
   for (const SceneChoice& scene : options.scenes) {
     btSequentialImpulseConstraintSolver stock;
     bullet::ConstraintSolver cairn(Sweeps(kIterations, 1));
     TimedWorld bullet_world(scene, &stock), cairn_world(scene, &cairn);
     const int first = scene.FirstFrame(options.frame);
     for (int frame = 0; frame < first + options.frames; ++frame) {
-      bullet_world.Step(frame, frame >= first);
-      cairn_world.Step(frame, frame >= first);
+      bullet_world.Step(frame >= first);
+      cairn_world.Step(frame >= first);
     }
     const auto ms = [](const std::vector<double>& us) {
       return fmt::format("{:.3f}", 1e-3 * cli::Median(us));
@@ -76,12 +71,12 @@ void PrintSteps(const StepOptions& options, const std::string& command) {
     const auto ratio = [](const std::vector<double>& a, const std::vector<double>& b) {
       return fmt::format("{:.1f}", cli::Median(a) / cli::Median(b));
     };
-    table.Add({NameOf(scene), ms(bullet_world.whole), ms(bullet_world.inside),
-               ms(cairn_world.whole), ms(cairn_world.inside), ms(cairn_world.outside),
-               ratio(bullet_world.whole, cairn_world.whole),
-               ratio(bullet_world.inside, cairn_world.inside)});
+    table.rows.push_back({NameOf(scene), ms(bullet_world.whole), ms(bullet_world.inside),
+                          ms(cairn_world.whole), ms(cairn_world.inside), ms(cairn_world.outside),
+                          ratio(bullet_world.whole, cairn_world.whole),
+                          ratio(bullet_world.inside, cairn_world.inside)});
   }
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 }  // namespace cairn::frames

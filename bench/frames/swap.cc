@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frames/swap.h"
+#include "frames/experiments.h"
 
 #include <cairn/bullet/constraint_solver.h>
 #include <fmt/format.h>
@@ -11,24 +11,19 @@
 #include <utility>
 
 #include "frames/frame_solver.h"
-#include "frames/markdown.h"
-#include "frames/size_series.h"
 #include "frames/span_times.h"
 #include "measure/instrumented_solver.h"
+#include "run/scene_run.h"
+#include "support/machine/run_context.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::frames {
 namespace {
 
 using bench::Substep;
 using cli::Median;
-
-/// CPU time of this thread [us].
-double Now() {
-  timespec time;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
-}
 
 /// Where a substep of Cairn went, wall clock [us].
 struct Parts {
@@ -71,9 +66,9 @@ class Swap {
       const size_t lane = turn_ % solvers.size();
       substep->Restore();
       spans_.Clear();
-      const double start = Now();
+      const cli::ThreadStopwatch stopwatch;
       substep->SolveWith(solvers[lane], ten, nullptr);
-      to[lane]->push_back(Now() - start);
+      to[lane]->push_back(1e3 * stopwatch.Read().cpu);
       if (solvers[lane] == &fast_) AddParts();
     }
     ++turn_;
@@ -105,29 +100,24 @@ class Swap {
   size_t turn_ = 0;
 };
 
-Times TimesOf(const SceneChoice& choice, const SwapOptions& options) {
+Times TimesOf(const SceneChoice& choice, const WindowOptions& options) {
   btSequentialImpulseConstraintSolver driver;
-  bench::InstrumentedSolver instrumented(&driver);
-  bench::World world(&instrumented);
-  const auto scene = bench::Make(*bench::FindScene(choice.name));
-  scene->Build(&world, {.size = choice.size});
+  cli::SceneRun run(choice, &driver);
   Swap swap;
-  const int first = choice.FirstFrame(options.frame);
-  for (int frame = 0; frame < first + options.frames; ++frame) {
-    if (frame >= first) {
-      instrumented.ProbeNext(
-          [&](Substep* substep, const btContactSolverInfo& info) { swap.Look(substep, info); });
-    }
-    scene->BeforeStep(&world, frame);
-    world.Step();
+  run.Skip(choice.FirstFrame(options.frame));
+  for (int i = 0; i < options.frames; ++i) {
+    run.StepAfter(
+        [&](Substep* substep, const btContactSolverInfo& info) { swap.Look(substep, info); });
   }
   return std::move(swap.times);
 }
 
 }  // namespace
 
-void PrintSwaps(const SwapOptions& options, const std::string& command) {
-  PrintOrigin("Swap: Cairn instead of Bullet's solver, ten sweeps, no step, one thread", command);
+void PrintSwaps(const WindowOptions& options, const std::string& command) {
+  fmt::print("{}",
+             cli::Origin("Swap: Cairn instead of Bullet's solver, ten sweeps, no step, one thread",
+                         cli::DescribeContext(command)));
   fmt::print(
       "- {} frames in a row; each is solved by all three from the same state, in turn; medians, "
       "CPU "
@@ -135,22 +125,24 @@ void PrintSwaps(const SwapOptions& options, const std::string& command) {
       "- shares: set-up, from Bullet's objects to blocks; sweeps; finish, back to the objects\n"
       "- set-up ns: for each point of contact and each joint row\n\n",
       options.frames);
-  MarkdownTable table({"scene", "bodies", "points", "joint rows", "Bullet us", "Cairn us", "ratio",
-                       "reference us", "set-up", "sweeps", "finish", "set-up ns"});
+  cli::TextTable table =
+      cli::TableOf({"scene", "bodies", "points", "joint rows", "Bullet us", "Cairn us", "ratio",
+                    "reference us", "set-up", "sweeps", "finish", "set-up ns"});
   for (const SceneChoice& scene : options.scenes) {
     const Times times = TimesOf(scene, options);
     const double bullet = Median(times.bullet), fast = Median(times.fast);
     const double set_up = Median(times.set_up), sweeps = Median(times.sweeps);
     const double finish = Median(times.finish), sum = set_up + sweeps + finish;
     const auto share = [sum](double part) { return fmt::format("{:.0f} %", 100 * part / sum); };
-    table.Add({NameOf(scene), fmt::format("{:.0f}", Median(times.bodies)),
-               fmt::format("{:.0f}", Median(times.points)),
-               fmt::format("{:.0f}", Median(times.joint_rows)), fmt::format("{:.0f}", bullet),
-               fmt::format("{:.0f}", fast), fmt::format("{:.1f}", bullet / fast),
-               fmt::format("{:.0f}", Median(times.reference)), share(set_up), share(sweeps),
-               share(finish), fmt::format("{:.0f}", Median(times.set_up_ns))});
+    table.rows.push_back(
+        {NameOf(scene), fmt::format("{:.0f}", Median(times.bodies)),
+         fmt::format("{:.0f}", Median(times.points)),
+         fmt::format("{:.0f}", Median(times.joint_rows)), fmt::format("{:.0f}", bullet),
+         fmt::format("{:.0f}", fast), fmt::format("{:.1f}", bullet / fast),
+         fmt::format("{:.0f}", Median(times.reference)), share(set_up), share(sweeps),
+         share(finish), fmt::format("{:.0f}", Median(times.set_up_ns))});
   }
-  table.Print();
+  fmt::print("{}\n", table.ToMarkdown());
 }
 
 }  // namespace cairn::frames

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "measure/contact_frame.h"
 #include "measure/velocity_norm.h"
-#include "rigid/contact_frame.h"
 
 namespace cairn::bench {
 

@@ -4,7 +4,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "cairn/bullet/group_rows.h"
-#include "rigid/contact_frame.h"
+#include "measure/contact_frame.h"
 
 namespace cairn::bench {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
-
+#include <unordered_map>
 #include <vector>
 
 namespace cairn::bench {
@@ -58,6 +58,20 @@ class Substep {
   std::vector<BodyState> body_states_;
   std::vector<btManifoldPoint> points_;  ///< of all manifolds of all groups, in order
   std::vector<JointState> joint_states_;
+};
+
+/// For a solver that is given the substeps of a world which another one drives: the impulses that
+/// it left in the joints itself. cairn::bullet::ConstraintSolver knows those of a joint again by
+/// the one that the joint keeps, which the other solver overwrites; Bullet starts joints from zero.
+class JointImpulses {
+ public:
+  /// Before a solve: brings back what was kept.
+  void Put(const Substep& substep) const;
+  /// After it.
+  void Keep(const Substep& substep);
+
+ private:
+  std::unordered_map<const btTypedConstraint*, btScalar> impulses_;
 };
 
 }  // namespace cairn::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "micro/context.h"
+#include "micro/sweep_benchmarks.h"
 
 #include <string>
 #include <string_view>
@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "simd/target.h"
-#include "support/build_info.h"
-#include "support/machine.h"
+#include "support/machine/build_info.h"
+#include "support/machine/machine.h"
 
 namespace cairn::micro {
 namespace {

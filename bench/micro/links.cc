@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "scenes/random.h"
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
 namespace cairn::micro {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include "micro/context.h"
 #include "micro/memory.h"
 #include "micro/same_rows.h"
 #include "micro/scene_kind.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "micro/row_scene.h"
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 
 namespace cairn::micro {
 

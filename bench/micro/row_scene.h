@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "micro/scene_kind.h"
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
 namespace cairn::micro {
 

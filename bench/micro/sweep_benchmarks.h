@@ -9,4 +9,7 @@ namespace cairn::micro {
 /// same rows. @p memory lives as long as they run.
 void RegisterBenchmarks(const Memory& memory);
 
+/// Puts into the report where and with what it was made, and what speaks against its figures.
+void AddContext(const Memory& memory);
+
 }  // namespace cairn::micro

@@ -65,7 +65,7 @@ file(READ ${SOURCE}/style.css style)
 
 file(WRITE ${BUILD}/page_parts.cc
 "// SPDX-License-Identifier: MIT
-#include \"run/page_parts.h\"
+#include \"page/page_parts.h\"
 
 namespace cairn::cli {
 

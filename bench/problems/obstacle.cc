@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problems/obstacle.h"
+#include "problems/generators.h"
 
 #include <algorithm>
 #include <cmath>

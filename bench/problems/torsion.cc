@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "problems/torsion.h"
+#include "problems/generators.h"
 
 #include <algorithm>
 #include <string>

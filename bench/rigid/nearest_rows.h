@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "rigid/contact_frame.h"
+#include "measure/contact_frame.h"
 
 namespace cairn::bench {
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "rigid/castle_frame.h"
-#include "rigid/castle_sizes.h"
+#include "rigid/castle.h"
 #include "rigid/contact_matrix.h"
 #include "rigid/contact_model.h"
 

@@ -2,7 +2,7 @@
 #include "rows/row_yardstick.h"
 
 #include "measure/row_velocities.h"
-#include "run/result.h"
+#include "support/statistics.h"
 
 namespace cairn::cli {
 

@@ -23,7 +23,7 @@ double MassRatio(const bench::World& world) {
     least = std::min(least, mass);
     most = std::max(most, mass);
   }
-  return most > 0 ? most / least : FrameFacts::kNone;
+  return most > 0 ? most / least : kNotMeasured;
 }
 
 }  // namespace cairn::cli

@@ -3,23 +3,24 @@
 
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "contestants/timeline.h"
+#include "effort/effort_ladder.h"
 #include "effort/scaling.h"
 #include "replay/replay.h"
 #include "run/frame_facts.h"
-#include "run/run_context.h"
-#include "support/metronome.h"
-#include "tools/setup.h"
+#include "support/machine/metronome.h"
+#include "support/machine/run_context.h"
+#include "support/machine/setup.h"
+#include "support/statistics.h"
 
 namespace cairn::cli {
 
-/// The value of everything that was not measured.
-inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+/// The version of what `cairn run --json` writes, and of what `cairn compare` reads.
+inline constexpr int kRunSchema = 1;
 
 /// One frame of one solver.
 struct Frame {
@@ -30,13 +31,6 @@ struct Frame {
   int guarded = 0;            ///< Islands on which something was guarded; see cairn::Guards.
   int rows = 0, islands = 0;  ///< Given to the solver, on observed frames; 0 otherwise.
   FrameFacts facts;           ///< With RunOptions::page.
-};
-
-/// What a solver reached with some effort on a sampled state.
-struct CurvePoint {
-  double time = 0;   ///< [ms]
-  double error = 0;  ///< Velocity error [m/s].
-  int iterations = 0, factorisations = 0;
 };
 
 /// A physical fact of a scene after the last frame.

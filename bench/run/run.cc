@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "contestants/lane.h"
 #include "effort/error_sampler.h"
 #include "replay/sample_plan.h"
+#include "run/lane.h"
 #include "support/duration.h"
-#include "support/metronome.h"
+#include "support/machine/metronome.h"
 
 namespace cairn::cli {
 namespace {
@@ -26,9 +26,9 @@ double LongestSubstep(const RunOptions& options) {
   return std::max(34.0, options.budget ? 2 * Milliseconds(*options.budget) : 0);
 }
 
-class SceneRun {
+class SideBySide {
  public:
-  SceneRun(const SceneChoice& scene, const RunOptions& options, Metronome* metronome)
+  SideBySide(const SceneChoice& scene, const RunOptions& options, Metronome* metronome)
       : options_(options),
         plan_(options.samples, options.warmup, options.frames),
         metronome_(metronome) {
@@ -147,7 +147,7 @@ RunResult Run(const RunOptions& options, const std::string& command) {
   for (int repetition = 1; repetition <= options.repeat; ++repetition) {
     for (size_t i = 0; i < options.scenes.size(); ++i) {
       const SceneChoice& scene = options.scenes[i];
-      SceneRun run(scene, options, &metronome);
+      SideBySide run(scene, options, &metronome);
       for (int frame = 0; frame < options.frames && !run.AllFailed(); ++frame) {
         const std::string of_repetitions =
             options.repeat == 1 ? ""

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "run/options.h"
 #include "run/result.h"
-#include "tools/options.h"
 
 namespace cairn::cli {
 

@@ -29,21 +29,41 @@ std::vector<const bench::SceneInfo*> FindScenes(std::span<const std::string> wor
   return scenes;
 }
 
+SceneChoice Choose(const bench::SceneInfo& scene, std::string_view size, std::uint64_t seed) {
+  SceneChoice choice{.info = std::make_shared<bench::SceneInfo>(scene),
+                     .make = [info = &scene] { return bench::Make(*info); },
+                     .size = scene.default_size,
+                     .seed = seed};
+  if (!size.empty()) {
+    choice.size = ParseInt("--size", size, scene.min_size, scene.max_size,
+                           fmt::format("size of {}", scene.name));
+  }
+  return choice;
+}
+
 }  // namespace
+
+SceneChoice ParseScene(std::string_view word, std::string_view size) {
+  const auto take = [&word](char mark) {
+    const std::string_view text = word.substr(std::min(word.find(mark), word.size()));
+    word.remove_suffix(text.size());
+    return text.substr(std::min<size_t>(1, text.size()));
+  };
+  const std::string_view frame = take('@'), own_size = take(':');
+  const std::string name(word);
+  SceneChoice choice =
+      Choose(*FindScenes({&name, 1}).front(), own_size.empty() ? size : own_size, 0);
+  if (!frame.empty()) {
+    choice.frame = ParseInt("@FRAME", frame, 0, 1'000'000, "first frame");
+  }
+  return choice;
+}
 
 std::vector<SceneChoice> ParseScenes(std::span<const std::string> words, std::string_view size,
                                      std::uint64_t seed) {
   std::vector<SceneChoice> choices;
   for (const bench::SceneInfo* scene : FindScenes(words)) {
-    SceneChoice choice{.info = std::make_shared<bench::SceneInfo>(*scene),
-                       .make = [scene] { return bench::Make(*scene); },
-                       .size = scene->default_size,
-                       .seed = seed};
-    if (!size.empty()) {
-      choice.size = static_cast<int>(ParseCount("--size", size, scene->min_size, scene->max_size,
-                                                fmt::format("size of {}", scene->name)));
-    }
-    choices.push_back(choice);
+    choices.push_back(Choose(*scene, size, seed));
   }
   return choices;
 }

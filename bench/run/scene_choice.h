@@ -21,7 +21,15 @@ struct SceneChoice {
   std::function<std::unique_ptr<bench::Scene>()> make;
   int size = 0;
   std::uint64_t seed = 0;
+  int frame = -1;  ///< The first that is looked at, where its word names one.
+
+  int FirstFrame(int otherwise) const { return frame >= 0 ? frame : otherwise; }
 };
+
+/// "castle", "pyramid:100" (its size) or "rubble@240" (its first frame).
+/// @param size  of a word without one; empty is the default of the scene
+/// @throws Failure (kUsage) if it is none of these, or there is no such scene or size.
+SceneChoice ParseScene(std::string_view word, std::string_view size = "");
 
 /// Scenes of the names typed, each once; "all" for every one. An empty size is the default of each.
 /// @throws Failure (kUsage) for an unknown name or a size that a scene does not have.

@@ -139,21 +139,6 @@ double ReferenceResidual(const SceneResult& scene) {
   return Median(residuals);
 }
 
-std::string FormatNumber(double value) {
-  if (std::isnan(value)) return "-";
-  if (std::isinf(value)) return "inf";
-  const double size = std::abs(value);
-  if (size == 0) return "0";
-  if (size < 1e-3 || size >= 1e5) return fmt::format("{:.1e}", value);
-  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 4);
-  return fmt::format("{:.{}f}", value, decimals);
-}
-
-std::string FormatTime(double milliseconds) {
-  if (std::isnan(milliseconds)) return "-";
-  return fmt::format("{:.{}f}", milliseconds, milliseconds < 10 ? 3 : milliseconds < 100 ? 2 : 1);
-}
-
 std::string FormatOverruns(const Summary& summary) {
   if (!summary.overruns || summary.timed_frames == 0) return "-";
   return fmt::format("{} ({:.0f} %)", *summary.overruns,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "run/result.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 
@@ -31,10 +32,6 @@ Summary Summarise(const SolverResult& solver, const SceneResult& scene,
 /// What the reference itself left: median over the samples [m/s].
 double ReferenceResidual(const SceneResult& scene);
 
-/// Three digits: "0.0312", "12.4", "3.1e-06"; "-" for NaN.
-std::string FormatNumber(double value);
-/// A time [ms] to the microsecond where it is short.
-std::string FormatTime(double milliseconds);
 /// "3 (1 %)", "-" without a budget.
 std::string FormatOverruns(const Summary& summary);
 

@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "contestants/contestant.h"
-#include "measure/joint_impulses.h"
 #include "measure/substep.h"
-#include "run/state_run.h"
-#include "small/small_result.h"
+#include "run/scene_run.h"
+#include "small/small.h"
 
 namespace cairn::cli {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <nlohmann/json.hpp>
 
-#include "small/small_output.h"
+#include "small/small.h"
 #include "support/json_number.h"
 #include "support/statistics.h"
 

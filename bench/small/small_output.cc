@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "small/small_output.h"
+#include "small/small.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "run/summary.h"
 #include "support/statistics.h"
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {

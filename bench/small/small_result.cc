@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "small/small_result.h"
+#include "small/small.h"
 
 #include <algorithm>
 

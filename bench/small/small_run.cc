@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "small/small_run.h"
+#include "small/small.h"
 
 #include <fmt/format.h>
 
@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "contestants/lane.h"
-#include "contestants/thread_stopwatch.h"
 #include "replay/sample_plan.h"
+#include "run/lane.h"
 #include "scenes/facts.h"
 #include "small/same_states.h"
-#include "support/cold_caches.h"
+#include "support/machine/cold_caches.h"
+#include "support/machine/stopwatch.h"
 #include "support/progress.h"
 #include "support/statistics.h"
 

@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "compare/pair_run.h"
-#include "rows/row_run.h"
+#include "solve/pair_run.h"
+#include "solve/row_run.h"
 
 namespace cairn::cli {
 namespace {

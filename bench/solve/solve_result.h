@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "cairn/boxed_lcp.h"
-#include "contestants/solver_clock.h"
-#include "effort/yardstick.h"
-#include "run/result.h"
-#include "run/run_context.h"
 #include "solve/solve_options.h"
+#include "solve/yardstick.h"
+#include "support/machine/run_context.h"
+#include "support/machine/stopwatch.h"
+#include "support/statistics.h"
 
 namespace cairn::cli {
 

@@ -24,6 +24,13 @@ struct Command {
 void AddText(CLI::App* app, const char* name, std::string* text, const char* help,
              const char* type);
 
+/// AddText() for one command: adder(name, text, help, type).
+inline auto TextAdder(CLI::App* app) {
+  return [app](const char* name, std::string* text, const char* help, const char* type) {
+    AddText(app, name, text, help, type);
+  };
+}
+
 /// Adds --progress and --quiet as every long command has them.
 struct OutputWords {
   std::string progress = "auto";

@@ -72,6 +72,11 @@ long long ParseCount(std::string_view option, std::string_view text, long long l
   return value;
 }
 
+int ParseInt(std::string_view option, std::string_view text, long long least, long long most,
+             std::string_view meaning) {
+  return static_cast<int>(ParseCount(option, text, least, most, meaning));
+}
+
 double ParseNumber(std::string_view option, std::string_view text, double least, double most,
                    std::string_view meaning) {
   double value = 0;

@@ -26,6 +26,10 @@ std::string WithoutPaths(std::string_view program, const std::vector<std::string
 long long ParseCount(std::string_view option, std::string_view text, long long least,
                      long long most, std::string_view meaning);
 
+/// The same as an int. @pre both ends are ints
+int ParseInt(std::string_view option, std::string_view text, long long least, long long most,
+             std::string_view meaning);
+
 /// A number in [least, most], "0.5" or "1e-6". @throws Failure (kUsage) likewise.
 double ParseNumber(std::string_view option, std::string_view text, double least, double most,
                    std::string_view meaning);

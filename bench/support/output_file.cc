@@ -2,10 +2,12 @@
 #include "support/output_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <span>
 #include <system_error>
 
@@ -23,6 +25,17 @@ void RefuseIf(const std::error_code& error, const std::string& path) {
 }  // namespace
 
 void CheckWritable(const std::string& path) { RefuseIf(TryWholeFile(path), path); }
+
+void CheckFolder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw Failure(kBadInput, fmt::format("cannot make folder '{}': {}", folder, error.message()));
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw Failure(kBadInput, fmt::format("cannot write into folder '{}'", folder));
+  }
+}
 
 void WriteFile(const std::string& path, const std::string& text) {
   RefuseIf(WriteWholeFile(path, std::as_bytes(std::span(text))), path);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace cairn::cli {
 
@@ -9,8 +10,33 @@ namespace cairn::cli {
 /// results are not lost after it. Leaves an existing file as it is.
 void CheckWritable(const std::string& path);
 
+/// Makes the folder, if need be. @throws Failure (kBadInput) if nothing can be written there; asked
+/// before a long run.
+void CheckFolder(const std::string& folder);
+
 /// All of it or nothing, see WriteWholeFile(). @throws Failure (kBadInput) with the path.
 void WriteFile(const std::string& path, const std::string& text);
+
+/// A file that a result is written to, in a form of its own; none without a path.
+template <class Result>
+struct ResultFile {
+  std::string path;
+  std::string (*format)(const Result&);
+};
+
+template <class Result>
+void CheckWritable(const std::vector<ResultFile<Result>>& files) {
+  for (const ResultFile<Result>& file : files) {
+    if (!file.path.empty()) CheckWritable(file.path);
+  }
+}
+
+template <class Result>
+void WriteFiles(const std::vector<ResultFile<Result>>& files, const Result& result) {
+  for (const ResultFile<Result>& file : files) {
+    if (!file.path.empty()) WriteFile(file.path, file.format(result));
+  }
+}
 
 /// @throws Failure (kBadInput) if something that was printed to stdout did not get there.
 void FinishOutput();

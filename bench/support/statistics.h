@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace cairn::cli {
+
+/// The value of everything that was not measured.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 /// A value that was not measured is NaN; all functions here leave it out, and answer NaN if nothing
 /// is left.

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace cairn::cli {
 namespace {
@@ -55,21 +57,53 @@ std::string TextTable::ToText() const {
 }
 
 std::string TextTable::ToMarkdown() const {
-  std::string text = "|", rule = "|";
-  for (size_t i = 0; i < columns.size(); ++i) {
-    text += fmt::format(" {}{} |", columns[i].name,
-                        columns[i].unit.empty() ? "" : " [" + columns[i].unit + "]");
-    rule += i < names ? " :-- |" : " --: |";
+  std::vector<std::vector<std::string>> lines(1);
+  for (const Column& column : columns) {
+    lines[0].push_back(column.name + (column.unit.empty() ? "" : " [" + column.unit + "]"));
   }
-  text += "\n" + rule + "\n";
-  for (const auto& row : rows) {
-    text += "|";
-    for (size_t i = 0; i < columns.size(); ++i) {
-      text += fmt::format(" {} |", i < row.size() ? row[i] : "");
+  lines.insert(lines.end(), rows.begin(), rows.end());
+  std::vector<size_t> widths(columns.size(), 3);
+  for (std::vector<std::string>& line : lines) {
+    const size_t aligned = line.size() < columns.size() ? line.size() - 1 : line.size();
+    for (size_t i = 0; i < aligned; ++i) widths[i] = std::max(widths[i], line[i].size());
+    line.resize(columns.size());
+  }
+  const auto align_of = [this](size_t i) { return i < names ? Align::kLeft : Align::kRight; };
+  std::string text;
+  for (const std::vector<std::string>& line : lines) {
+    for (size_t i = 0; i < line.size(); ++i) {
+      text += "| " + Pad(line[i], widths[i], align_of(i)) + " ";
     }
-    text += "\n";
+    text += "|\n";
+    if (&line != &lines[0]) continue;
+    for (size_t i = 0; i < line.size(); ++i) {
+      const std::string dashes(widths[i] + 1, '-');
+      text += align_of(i) == Align::kLeft ? "|:" + dashes : "|" + dashes + ":";
+    }
+    text += "|\n";
   }
   return text;
+}
+
+TextTable TableOf(std::vector<std::string> columns) {
+  TextTable table;
+  for (std::string& name : columns) table.columns.push_back({std::move(name), ""});
+  return table;
+}
+
+std::string FormatNumber(double value) {
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return "inf";
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  if (size < 1e-3 || size >= 1e5) return fmt::format("{:.1e}", value);
+  const int decimals = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 4);
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string FormatTime(double milliseconds) {
+  if (std::isnan(milliseconds)) return "-";
+  return fmt::format("{:.{}f}", milliseconds, milliseconds < 10 ? 3 : milliseconds < 100 ? 2 : 1);
 }
 
 }  // namespace cairn::cli

@@ -19,7 +19,16 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;
 
   std::string ToText() const;
+  /// With cells as wide as their column, to be read as it is.
   std::string ToMarkdown() const;
 };
+
+/// A table without units, of which the first column is names.
+TextTable TableOf(std::vector<std::string> columns);
+
+/// Three digits: "0.0312", "12.4", "3.1e-06"; "-" for NaN.
+std::string FormatNumber(double value);
+/// A time [ms] to the microsecond where it is short.
+std::string FormatTime(double milliseconds);
 
 }  // namespace cairn::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/doctor.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "simd/target.h"
-#include "support/build_info.h"
-#include "support/machine.h"
+#include "support/machine/build_info.h"
+#include "support/machine/machine.h"
 #include "support/output_file.h"
 #include "tools/precision.h"
 

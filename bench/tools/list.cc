@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tools/list.h"
+#include "tools/commands.h"
 
 #include <fmt/format.h>
 

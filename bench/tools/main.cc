@@ -7,18 +7,12 @@
 #include <memory>
 
 #include "CLI/CLI.hpp"
-#include "campaign/worlds_command.h"
-#include "compare/compare_command.h"
-#include "replay/record_command.h"
-#include "run/run_command.h"
-#include "solve/solve_command.h"
 #include "support/command.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/names.h"
 #include "support/output_file.h"
-#include "tools/doctor.h"
-#include "tools/list.h"
+#include "tools/commands.h"
 #include "tools/precision.h"
 
 namespace cairn::cli {

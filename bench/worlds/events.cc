@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "worlds/events.h"
+#include "worlds/draft.h"
 
 #include <algorithm>
 #include <cmath>

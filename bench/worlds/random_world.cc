@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "worlds/events.h"
+#include "worlds/draft.h"
 
 namespace cairn::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "worlds/kinds.h"
+#include "worlds/kinds/kinds.h"
 
 namespace cairn::bench {
 

@@ -16,7 +16,7 @@ struct Rules {
   int friction_directions = 2;
   bool split_impulse = true;
   bool sleeping = false;
-  bool events = false;                       ///< Bodies and joints come and go; see events.h.
+  bool events = false;                       ///< Bodies and joints come and go; see events.cc.
   Surface surface = {};                      ///< Of all bodies.
   btVector3 gravity{0, btScalar(-9.81), 0};  ///< At the start [m/s^2].
 };

@@ -11,12 +11,12 @@
 #include "body_table.h"
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
-#include "contact_points.h"
-#include "contact_rows.h"
+#include "contacts/contact_points.h"
+#include "contacts/contact_rows.h"
+#include "contacts/split_impulse.h"
+#include "contacts/twist_memory.h"
 #include "group_problem.h"
 #include "joint_rows.h"
-#include "split_impulse.h"
-#include "twist_memory.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -8,7 +8,7 @@
 
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
-#include "friction_directions.h"
+#include "contacts/friction_directions.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

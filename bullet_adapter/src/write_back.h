@@ -7,8 +7,8 @@
 
 #include "body_table.h"
 #include "cairn/bullet/precision.h"
+#include "contacts/split_impulse.h"
 #include "group_problem.h"
-#include "split_impulse.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -10,14 +10,13 @@
 #include <vector>
 
 #include "accuracy/bullet_trial.h"
-#include "accuracy/frame_statistics.h"
 #include "accuracy/shadow.h"
-#include "accuracy/states.h"
+#include "accuracy/states/states.h"
 #include "measure/converged.h"
 #include "measure/reference.h"
 #include "measure/velocity_norm.h"
 #include "run/scene_choice.h"
-#include "run/state_run.h"
+#include "run/scene_run.h"
 
 namespace cairn::accuracy {
 namespace {

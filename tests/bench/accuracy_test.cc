@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "accuracy/grid.h"
+#include "accuracy/grid/grid.h"
 #include "measure/velocity_norm.h"
 #include "scenes/facts.h"
 

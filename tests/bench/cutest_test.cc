@@ -13,11 +13,9 @@
 
 #include "cairn/boxed_lcp.h"
 #include "generated.h"
+#include "problems/generators.h"
 #include "problems/grid.h"
-#include "problems/journal_bearing.h"
-#include "problems/obstacle.h"
 #include "problems/problem_folder.h"
-#include "problems/torsion.h"
 
 namespace cairn::problems {
 namespace {

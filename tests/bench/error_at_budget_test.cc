@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effort/error_at_budget.h"
+#include "run/output/run_output.h"
 
 #include <gtest/gtest.h>
 

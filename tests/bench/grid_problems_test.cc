@@ -8,12 +8,8 @@
 #include <vector>
 
 #include "generated.h"
+#include "problems/generators.h"
 #include "problems/grid.h"
-#include "problems/infinite_bearing.h"
-#include "problems/journal_bearing.h"
-#include "problems/obstacle.h"
-#include "problems/slider.h"
-#include "problems/torsion.h"
 
 namespace cairn::problems {
 namespace {

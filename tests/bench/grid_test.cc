@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "problems/film.h"
+#include "problems/bearings/film.h"
 
 namespace cairn::problems {
 namespace {

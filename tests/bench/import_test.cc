@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "contestants/imported_scene.h"
+#include "run/imported_scene.h"
 #include "scenes/scene.h"
 #include "support/failure.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Prices of options that are known without a grid.
-#include "problems/option_formulas.h"
+#include "problems/options/option_formulas.h"
 
 #include <gtest/gtest.h>
 

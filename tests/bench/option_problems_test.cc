@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "cairn/solver.h"
-#include "problems/american_put.h"
-#include "problems/option_oracles.h"
-#include "problems/two_asset_put.h"
+#include "problems/generators.h"
+#include "problems/options/option_oracles.h"
 
 namespace cairn::problems {
 namespace {

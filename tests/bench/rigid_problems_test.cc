@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "cairn/solver.h"
-#include "rigid/castle_frame.h"
-#include "rigid/castle_sizes.h"
+#include "rigid/castle.h"
 #include "rigid/condition.h"
 #include "rigid/contact_matrix.h"
 #include "rigid/contact_model.h"

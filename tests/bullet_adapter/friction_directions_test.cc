@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bullet_adapter/src/friction_directions.h"
+#include "bullet_adapter/src/contacts/friction_directions.h"
 
 #include <gtest/gtest.h>
 

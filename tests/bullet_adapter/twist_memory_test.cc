@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "bullet_adapter/src/twist_memory.h"
+#include "bullet_adapter/src/contacts/twist_memory.h"
 
 #include <gtest/gtest.h>
 

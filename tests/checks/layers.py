@@ -14,6 +14,11 @@ BELOW_PLAN = ("core/include/", "simd/", "core/src/problem/", "core/src/runtime/"
 BELOW_SWEEP = BELOW_PLAN + ("core/src/plan/", "core/src/pack/")
 BELOW_STEP = BELOW_SWEEP + ("core/src/sweep/", "core/src/cholesky/")
 
+# Rooms of the bench.
+BELOW_RUN = ("bullet_adapter/include/", "core/include/", "bench/support/", "bench/measure/",
+             "bench/contestants/")
+ABOVE_RUN = BELOW_RUN + ("bench/scenes/", "bench/effort/", "bench/replay/")
+
 # Folder -> prefixes of our own files that it may include. The longest folder that fits a file counts.
 MAY_INCLUDE = {
     "simd": ("simd/",),
@@ -33,9 +38,32 @@ MAY_INCLUDE = {
     "core/lcp": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/runtime/", "simd/"),
     "bullet_adapter/include": ("bullet_adapter/include/", "core/include/"),
     "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
-    "bench": ("bench/", "bullet_adapter/include/", "core/include/", "simd/"),
-    "bench/micro": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
-    "bench/worlds": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
+    # Rooms of the bench, from what all use up to programs.
+    "bench/support": ("bench/support/", "core/include/", "simd/"),
+    "bench/scenes": ("bench/scenes/",),
+    "bench/problems": ("bench/problems/", "core/include/"),
+    "bench/measure": ("bench/measure/", "bullet_adapter/include/", "core/include/"),
+    "bench/rigid": ("bullet_adapter/include/", "core/include/", "bench/measure/", "bench/scenes/",
+                    "bench/problems/", "bench/rigid/"),
+    "bench/worlds": ("bench/scenes/", "bench/measure/", "bench/worlds/", "bullet_adapter/include/",
+                     "core/include/", "core/src/problem/"),
+    "bench/campaign": ("bench/support/", "bench/worlds/", "bench/campaign/", "simd/"),
+    "bench/contestants": BELOW_RUN[:4] + ("bench/contestants/",),
+    "bench/effort": BELOW_RUN + ("bench/effort/", "simd/"),
+    "bench/replay": ("bench/scenes/", "bench/replay/"),
+    "bench/run": ABOVE_RUN + ("bench/run/",),
+    "bench/compare": ("bench/support/", "bench/run/", "bench/compare/"),
+    "bench/page": ("bench/support/", "bench/run/", "bench/compare/", "bench/page/"),
+    "bench/small": ABOVE_RUN + ("bench/run/", "bench/small/"),
+    "bench/lcp": ("bench/support/", "bench/lcp/", "core/include/"),
+    "bench/rows": BELOW_RUN + ("bench/rigid/", "bench/lcp/", "bench/rows/"),
+    "bench/solve": ("bench/support/", "bench/problems/", "bench/measure/", "bench/rigid/", "bench/lcp/",
+                    "bench/rows/", "bench/solve/", "core/include/"),
+    "bench/tools": ("bench/", "core/include/", "simd/"),
+    "bench/frames": ABOVE_RUN + ("bench/run/", "bench/frames/"),
+    "bench/accuracy": ABOVE_RUN + ("bench/run/", "bench/accuracy/"),
+    "bench/micro": ("bench/support/", "bench/measure/", "bench/scenes/", "bench/run/", "bench/micro/",
+                    "bullet_adapter/include/", "core/", "simd/"),
     "examples": ("examples/", "bullet_adapter/include/", "core/include/"),
     "tests": ("",),
 }
@@ -47,12 +75,12 @@ THIRD_PARTIES = {
     "Eigen's orderings": (r"Eigen/OrderingMethods$", r"core/src/cholesky/minimum_degree\.|tests/"),
     "Eigen's sparse factorisations": (
         r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|.*Support|Iterative.*)$",
-        r"bench/micro/eigen_cholesky\.|tests/"),
+        r"bench/micro/cholesky/eigen_cholesky\.|tests/"),
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
     "Siconos": (r"siconos/", r"bench/lcp/siconos_"),
-    "CHOLMOD": (r"suitesparse/", r"bench/micro/cholmod_"),
+    "CHOLMOD": (r"suitesparse/", r"bench/micro/cholesky/cholmod_"),
     "Google Benchmark": (r"benchmark/", r"bench/micro/"),
     "test libraries": (r"(gtest|gmock|rapidcheck)(/|\.h)", r"tests/"),
 }

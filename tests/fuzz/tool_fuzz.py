@@ -18,7 +18,7 @@ import tempfile
 import time
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-sys.path.insert(0, os.path.join(ROOT, "tests", "bench"))
+sys.path.insert(0, os.path.join(ROOT, "tests", "bench", "tool"))
 import solve_cli_test  # noqa: E402
 
 KEPT = os.path.join(ROOT, "build", "fuzz", "tool")

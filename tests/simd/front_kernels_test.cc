@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Dense fronts on every target: against textbook loops, and bit by bit.
-#include "simd/front_kernels.h"
+#include "simd/fronts/front_kernels.h"
 
 #include <algorithm>
 #include <cmath>

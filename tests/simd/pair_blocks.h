@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 
 namespace cairn::simd::test {
 

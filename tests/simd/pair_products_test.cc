@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Products with G against sums written out from the rows of a block.
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_products.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The reference against the formulas of pair_sweep.h in double precision, row by row and without
 // the short cuts that forms of pairs allow.
-#include "simd/pair_reference.h"
+#include "simd/pairs/pair_reference.h"
 
 #include <algorithm>
 #include <array>

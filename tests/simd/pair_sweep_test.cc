@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is true of every target. That the reference computes what it should is in
 // pair_reference_test.cc.
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "pair_blocks.h"
-#include "simd/pair_reference.h"
+#include "simd/pairs/pair_reference.h"
 
 #if defined(__SSE2__)
 #include <xmmintrin.h>

@@ -9,7 +9,7 @@
 #include "cholesky/factor_pattern.h"
 #include "cholesky/line_allocator.h"
 #include "runtime/crew.h"
-#include "simd/front_kernels.h"
+#include "simd/fronts/front_kernels.h"
 #include "simd/target.h"
 
 namespace cairn {

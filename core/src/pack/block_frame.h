@@ -10,7 +10,7 @@
 #include "plan/plan.h"
 #include "runtime/crew.h"
 #include "simd/lane_numbers.h"
-#include "simd/pair_sweep.h"
+#include "simd/pairs/pair_sweep.h"
 
 namespace cairn {
 

@@ -7,10 +7,10 @@
 #include "cairn/contact_problem.h"
 #include "plan/plan.h"
 #include "problem/whitening.h"
-#include "simd/contact_rows.h"
-#include "simd/joint_rows.h"
-#include "simd/pair_block.h"
-#include "simd/row_pack.h"
+#include "simd/pairs/pair_block.h"
+#include "simd/rows/contact_rows.h"
+#include "simd/rows/joint_rows.h"
+#include "simd/rows/row_pack.h"
 
 namespace cairn {
 

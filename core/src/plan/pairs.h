@@ -6,7 +6,7 @@
 
 #include "cairn/contact_problem.h"
 #include "plan/row_law.h"
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
 namespace cairn {
 

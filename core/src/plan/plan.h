@@ -10,7 +10,7 @@
 #include "plan/pairs.h"
 #include "plan/row_law.h"
 #include "problem/islands.h"
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
 namespace cairn {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cairn/contact_problem.h"
-#include "simd/pair_block.h"
+#include "simd/pairs/pair_block.h"
 
 namespace cairn {
 

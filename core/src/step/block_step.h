@@ -6,8 +6,8 @@
 
 #include "pack/block_pack.h"
 #include "plan/plan.h"
-#include "simd/pair_law.h"
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_law.h"
+#include "simd/pairs/pair_products.h"
 #include "step/block_system.h"
 #include "step/step_settings.h"
 

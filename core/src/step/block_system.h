@@ -10,7 +10,7 @@
 #include "pack/block_pack.h"
 #include "plan/plan.h"
 #include "runtime/crew.h"
-#include "simd/pair_products.h"
+#include "simd/pairs/pair_products.h"
 
 namespace cairn {
 

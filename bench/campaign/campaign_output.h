@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "worlds/campaign.h"
+
+namespace cairn::cli {
+
+/// What all worlds came to, and each kind, solver by solver.
+std::string WorldTables(std::span<const bench::WorldResult> results,
+                        std::span<const bench::Variant> variants);
+
+/// A line for each world and solver that failed; none without failures.
+std::string FailedWorlds(std::span<const bench::WorldResult> results,
+                         std::span<const bench::Variant> variants);
+
+/// One world in detail.
+/// @param description  of the world
+std::string WorldReport(const bench::WorldResult& result, const std::string& description,
+                        std::span<const bench::Variant> variants);
+
+/// Everything about every world, as JSON, with the context of the run.
+std::string WorldsToJson(const bench::CampaignOptions& options,
+                         std::span<const bench::WorldResult> results, const std::string& command);
+
+/// Runs the worlds again with one thread on every SIMD target of this machine, and with two and
+/// three on the best; results that differ get a finding. Changes CAIRN_SIMD meanwhile.
+void CheckBits(const bench::CampaignOptions& options, std::vector<bench::WorldResult>* results);
+
+/// Shrinks each failure and writes into a folder: seed-N-SOLVER.txt, which says what is left and
+/// how to run it, and seed-N-SOLVER.cairn, the problem of its worst frame.
+/// @return a line for each. @throws Failure (kBadInput)
+std::string ShrinkFailures(const bench::CampaignOptions& options,
+                           const std::vector<bench::WorldResult>& results,
+                           const std::string& folder);
+
+/// The sentence that describes a world.
+std::string DescribeWorld(const bench::WorldSeed& seed);
+
+}  // namespace cairn::cli

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "run/record.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cairn/bullet/constraint_solver.h"
+#include "run/lane.h"
+#include "support/failure.h"
+#include "support/progress.h"
+
+namespace cairn::cli {
+namespace {
+
+RecordedFrame Look(const std::string& path) {
+  Recording recording;
+  if (const RecordingStatus status = Load(path, &recording); !status.ok()) {
+    throw Failure(kBadInput, fmt::format("'{}': {}", path, status.message));
+  }
+  return {.path = path,
+          .bodies = static_cast<int>(recording.bodies.size()),
+          .joint_rows = static_cast<int>(recording.rows.size()),
+          .points = static_cast<int>(recording.points.size()),
+          .bytes = std::filesystem::file_size(path)};
+}
+
+std::string PathOf(const RecordOptions& options, const SceneChoice& scene, int frame) {
+  return fmt::format("{}/{}-{:06}.cairn", options.folder, scene.info->name, frame);
+}
+
+/// A scene whose frames are written.
+class RecordedScene {
+ public:
+  RecordedScene(const SceneChoice& scene, const RecordOptions& options)
+      : options_(options), scene_(scene), lane_(scene, options.run.solvers.front(), options.run) {}
+
+  void Step(int frame) {
+    const bool wanted = options_.frames.Contains(frame);
+    const std::string path = PathOf(options_, scene_, frame);
+    if (wanted) Ask(frame, path);
+    lane_.Step(Lane::Observing::kOff);
+    if (wanted) Check(frame, path);
+    if (!lane_.failed()) return;
+    throw Failure(kCheckFailed, fmt::format("{}: {} failed in frame {}: {}", scene_.info->name,
+                                            lane_.label(), frame, lane_.failure()));
+  }
+  std::vector<RecordedFrame> TakeFrames() { return std::move(frames_); }
+
+ private:
+  /// Bullet's solvers start friction and joints from nothing.
+  static bullet::Options StartLikeBullet() {
+    bullet::Options options;
+    options.warm_start_friction = options.warm_start_joints = false;
+    return options;
+  }
+
+  void Ask(int frame, const std::string& path) {
+    if (lane_.cairn() != nullptr) return lane_.cairn()->RecordNext(path, frame);
+    beside_.RecordNext(path, frame);
+    lane_.ProbeNext([this](bench::Substep* substep, const btContactSolverInfo& info) {
+      substep->Restore();
+      substep->SolveWith(&beside_, info, nullptr);
+    });
+  }
+
+  void Check(int frame, const std::string& path) {
+    const RecordedFiles& files = (lane_.cairn() != nullptr ? lane_.cairn() : &beside_)->recorded();
+    if (files.failed > 0) throw Failure(kBadInput, "cannot write " + files.last_failure);
+    if (files.last_file != path) {
+      throw Failure(kBadInput, fmt::format("{}: nothing moves or touches in frame {}",
+                                           scene_.info->name, frame));
+    }
+    frames_.push_back(Look(path));
+  }
+
+  const RecordOptions& options_;
+  SceneChoice scene_;
+  Lane lane_;
+  bullet::ConstraintSolver beside_{Settings{}, StartLikeBullet()};
+  std::vector<RecordedFrame> frames_;
+};
+
+}  // namespace
+
+void RefuseToOverwrite(const RecordOptions& options) {
+  for (const SceneChoice& scene : options.run.scenes) {
+    for (int frame = 0; frame < options.run.frames; ++frame) {
+      const std::string path = PathOf(options, scene, frame);
+      if (!options.frames.Contains(frame) || !std::filesystem::exists(path)) continue;
+      throw Failure(kBadInput, fmt::format("'{}' is there already: --force writes over it", path));
+    }
+  }
+}
+
+std::vector<RecordedFrame> RecordScenes(const RecordOptions& options) {
+  std::vector<RecordedFrame> all;
+  Progress progress(options.run.progress);
+  double scenes_done = 0;
+  for (const SceneChoice& choice : options.run.scenes) {
+    RecordedScene scene(choice, options);
+    for (int frame = 0; frame < options.run.frames; ++frame) {
+      progress.Show(fmt::format("{}: frame {} of {}", choice.info->name, frame, options.run.frames),
+                    (scenes_done + 1.0 * frame / options.run.frames) /
+                        static_cast<double>(options.run.scenes.size()));
+      scene.Step(frame);
+    }
+    ++scenes_done;
+    for (RecordedFrame& frame : scene.TakeFrames()) all.push_back(std::move(frame));
+  }
+  return all;
+}
+
+}  // namespace cairn::cli

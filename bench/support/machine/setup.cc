@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "support/machine/setup.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sched.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "simd/target.h"
+#include "support/command_line.h"
+#include "support/failure.h"
+#include "support/json_number.h"
+
+namespace cairn::cli {
+namespace {
+
+std::vector<int> UsableCores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> cores;
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(core, &set)) cores.push_back(core);
+  }
+  return cores;
+}
+
+void PinTo(int core) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (core < CPU_SETSIZE) CPU_SET(core, &set);
+  if (sched_setaffinity(0, sizeof set, &set) == 0) return;
+  const std::string why = errno == EINVAL ? "there is no such core here" : std::strerror(errno);
+  throw Failure(kUsage, fmt::format("--pin {}: {}; this process may use the cores {}", core, why,
+                                    fmt::join(UsableCores(), ", ")));
+}
+
+void ForceTarget(const std::string& name) {
+  using Reason = simd::TargetChoice::Reason;
+  const std::vector<simd::Target> supported = simd::SupportedTargets();
+  const simd::TargetChoice choice = simd::ChooseTarget(name, supported);
+  if (!choice.honoured()) {
+    std::vector<std::string_view> names;
+    for (const simd::Target target : supported) names.push_back(simd::TargetName(target));
+    throw Failure(kUsage, fmt::format("--simd '{}' {}; this machine has {}", name,
+                                      choice.reason == Reason::kUnknown ? "is no target"
+                                                                        : "does not run here",
+                                      fmt::join(names, ", ")));
+  }
+  // What solvers that are made from now on read.
+  setenv("CAIRN_SIMD", name.c_str(), 1);
+}
+
+}  // namespace
+
+Setup ParseSetup(const std::string& threads, const std::string& simd, const std::string& core) {
+  Setup setup{.threads = ParseInt("--threads", threads, 1, 1024, "threads that Cairn may use"),
+              .simd = simd,
+              .pinned = {}};
+  if (core.empty()) return setup;
+  setup.pinned = ParseInt("--pin", core, 0, 65535, "a core, counted from 0");
+  if (setup.threads > 1) {
+    throw Failure(kUsage, fmt::format("--pin {} with --threads {}: all threads would share that "
+                                      "core; leave one of the two out",
+                                      core, threads));
+  }
+  return setup;
+}
+
+void Apply(const Setup& setup) {
+  if (!setup.simd.empty()) ForceTarget(setup.simd);
+  if (setup.pinned) PinTo(*setup.pinned);
+}
+
+std::string Describe(const Setup& setup) {
+  return fmt::format("{} thread{} for Cairn, {}", setup.threads, setup.threads == 1 ? "" : "s",
+                     setup.pinned ? fmt::format("pinned to core {}", *setup.pinned)
+                                  : std::string("not pinned to a core"));
+}
+
+nlohmann::ordered_json ToJson(const Setup& setup) {
+  return {{"threads", setup.threads},
+          {"simd_asked_for", setup.simd.empty() ? nlohmann::ordered_json(nullptr)
+                                                : nlohmann::ordered_json(setup.simd)},
+          {"pinned_to_core", Maybe(setup.pinned)}};
+}
+
+}  // namespace cairn::cli

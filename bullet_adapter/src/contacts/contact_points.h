@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+
+#include <span>
+#include <vector>
+
+#include "body_table.h"
+#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/precision.h"
+#include "cairn/contact_problem.h"
+#include "contacts/contact_input.h"
+#include "contacts/split_impulse.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+
+/// The contacts of a group that the core takes as manifolds, with nothing written out as rows: all
+/// that are neither anisotropic nor anchored, and whose directions of friction no user has set. The
+/// formulas are those of ContactRowBuilder, in the kernels of the core.
+class ContactPoints {
+ public:
+  /// Begins a group.
+  void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactStart& start);
+  /// Ends it: no manifold follows.
+  void End();
+  /// Appends a manifold, and its deep penetration to @p pushes. False if it has to be written out
+  /// as rows: nothing was done.
+  bool Append(btPersistentManifold* manifold, BodyTable* bodies, SplitImpulse* pushes);
+
+  std::span<const Manifold> manifolds() const { return manifolds_; }
+  std::span<const ContactPoint> points() const { return std::span(points_).first(count_); }
+  /// One per point: the start, and after solving the result.
+  std::span<ContactImpulse> impulses() { return std::span(impulses_).first(count_); }
+  /// One per point, or none if nothing rolls.
+  std::span<const ContactTwist> twists() const { return twists_; }
+  std::span<TwistImpulse> twist_impulses() { return twist_impulses_; }
+  cairn::ContactLaw law() const { return law_; }
+  /// Bullet's, one per point.
+  std::span<btManifoldPoint* const> sources() const { return std::span(sources_).first(count_); }
+
+  /// Writes impulses and directions to the points of Bullet.
+  void Write() const;
+  /// Adds what resists rolling to @p memory, once everything is written.
+  void Keep(TwistMemory* memory) const;
+
+ private:
+  struct Ends {
+    Party a, b;
+  };
+  /// What there is among the points of a manifold.
+  struct Features {
+    int points = 0;  ///< that count
+    int flags = 0;   ///< of any
+    bool pushed = false, rolls = false, soft = false;
+  };
+
+  void MakeRoom(size_t more);
+  /// Reads the points of a manifold behind those that there are.
+  Features ReadPoints(const Ends& ends, btPersistentManifold* manifold);
+  void ReadPoint(const Ends& ends, const btManifoldPoint& source, size_t place, Features* found);
+  bool IsPushed(btScalar distance) const;
+  /// What resists rolling at the point at count_.
+  void AddTwist(const btManifoldPoint& source);
+  /// Adds what takes a deep point apart to @p pushes.
+  void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
+               SplitImpulse* pushes);
+
+  btContactSolverInfo info_;
+  bool takes_any_ = false;  ///< the settings of the group allow it
+  int not_taken_ = 0;       ///< flags of points that have to be written out
+  Softness softness_;       ///< of points that have none of their own
+  ContactStart start_;
+  cairn::ContactLaw law_;
+  Manifold like_;  ///< what all manifolds have in common
+  std::vector<Manifold> manifolds_;
+  // of the points, the first count_ are in use
+  size_t count_ = 0;
+  std::vector<ContactPoint> points_;
+  std::vector<ContactImpulse> impulses_;
+  std::vector<btManifoldPoint*> sources_;
+  std::vector<ContactTwist> twists_;  ///< as many as there are points up to the last that rolls
+  std::vector<TwistImpulse> twist_impulses_;
+};
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+// Laws of rows in a subspace step, lane by lane: plain loops over the lanes of a line, which the
+// compiler turns into vectors of each target. Compiled once per target.
+#if defined(CAIRN_SIMD_PAIR_LAW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAIRN_SIMD_PAIR_LAW_INL_H_
+#undef CAIRN_SIMD_PAIR_LAW_INL_H_
+#else
+#define CAIRN_SIMD_PAIR_LAW_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simd/pairs/pair_law.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace cairn::simd {
+namespace HWY_NAMESPACE {
+namespace laws {
+
+/// line := what function(lane) gives. Through numbers of its own, which alias with nothing.
+template <class T, class LineT, class Function>
+HWY_INLINE void Fill(LineT* line, const Function& function) {
+  T all[kLanes];
+  for (int l = 0; l < kLanes; ++l) all[l] = function(l);
+  for (int l = 0; l < kLanes; ++l) line->lane[l] = all[l];
+}
+
+/// The lines of one row; see RowLines().
+struct RowView {
+  const RowShape& shape;
+  const Line* target;
+  const Line* step;
+  const Line* compliance = nullptr;  ///< if soft
+  const Line* relaxation = nullptr;  ///< if relaxed
+  const Line* bounds = nullptr;
+
+  RowView(PairForm form, const RowShape& row, const Line* line)
+      : shape(row), target(line + JacobianLines(form)), step(target + 1) {
+    const Line* next = step + 1;
+    if (row.soft) compliance = next++;
+    if (row.relaxed) relaxation = next++;
+    bounds = next;
+  }
+};
+
+/// function(i, view) for every row, in their order: parents come before their friction.
+template <class Function>
+void ForRows(const PairBlock& block, const Line* lines, const Function& function) {
+  lines += PairLines(block.form);
+  for (int i = 0; i < block.row_count; ++i) {
+    function(i, RowView(block.form, block.rows[i], lines));
+    lines += RowLines(block.form, block.rows[i]);
+  }
+}
+
+template <class T>
+struct BoundLines {
+  LineOf<T> lo, hi;
+};
+
+/// Of a row whose parent, if any, has the impulses @p parent.
+template <class T>
+void FindBounds(const RowView& row, const LineOf<T>* parent, BoundLines<T>* bounds) {
+  constexpr T kInf = std::numeric_limits<T>::infinity();
+  const Line* const b = row.bounds;
+  const auto set = [bounds](const auto& lo, const auto& hi) {
+    Fill<T>(&bounds->lo, lo);
+    Fill<T>(&bounds->hi, hi);
+  };
+  const auto most = [b, parent](int l) {
+    return static_cast<T>(b[0].lane[l]) * std::max(parent->lane[l], T{0});
+  };
+  switch (row.shape.bound) {
+    case RowBound::kFree:
+      return set([](int) { return -kInf; }, [](int) { return kInf; });
+    case RowBound::kPush:
+      return set([](int) { return T{0}; }, [](int) { return kInf; });
+    case RowBound::kOwn:
+      return set([b](int l) { return static_cast<T>(b[0].lane[l]); },
+                 [b](int l) { return static_cast<T>(b[1].lane[l]); });
+    case RowBound::kFriction:
+      return set([&](int l) { return -most(l); }, most);
+    case RowBound::kCutFriction:
+      return set([&](int l) { return std::max(-most(l), static_cast<T>(b[1].lane[l])); },
+                 [&](int l) { return std::min(most(l), static_cast<T>(b[2].lane[l])); });
+  }
+}
+
+template <class T>
+T AtBound(RowSide side, T x, T lo, T hi) {
+  return side == RowSide::kFree ? x : side == RowSide::kLo ? lo : hi;
+}
+
+/// Bounds of rows in their order, while parents that are not free sit at their own bounds.
+template <class T>
+class PredictedBounds {
+ public:
+  explicit PredictedBounds(const PairLaw<T>& law) : law_(law) {}
+
+  void Find(const RowView& row, BoundLines<T>* bounds) {
+    if (row.shape.parent < 0) return FindBounds<T>(row, nullptr, bounds);
+    if (row.shape.parent != parent_) FindParent(row.shape.parent);
+    FindBounds<T>(row, &parent_x_, bounds);
+  }
+
+ private:
+  void FindParent(int parent) {
+    parent_ = parent;
+    const Line* lines = law_.lines + PairLines(law_.block.form);
+    for (int i = 0; i < parent; ++i) lines += RowLines(law_.block.form, law_.block.rows[i]);
+    BoundLines<T> own;
+    FindBounds<T>(RowView(law_.block.form, law_.block.rows[parent], lines), nullptr, &own);
+    for (int l = 0; l < kLanes; ++l) {
+      parent_x_.lane[l] = AtBound(law_.sides[parent].lane[l], law_.x[parent].lane[l],
+                                  own.lo.lane[l], own.hi.lane[l]);
+    }
+  }
+
+  const PairLaw<T>& law_;
+  int parent_ = -1;
+  LineOf<T> parent_x_;
+};
+
+template <class T>
+HWY_INLINE void FindInverseDiagonals(const RowView& row, LineOf<T>* inverse) {
+  Fill<T>(inverse, [&](int l) { return static_cast<T>(row.step->lane[l]); });
+  if (row.relaxation == nullptr) return;
+  Fill<T>(inverse,
+          [&](int l) { return inverse->lane[l] / static_cast<T>(row.relaxation->lane[l]); });
+}
+
+template <class T>
+HWY_INLINE void FindCompliances(const RowView& row, LineOf<T>* compliance) {
+  if (row.shape.soft) {
+    Fill<T>(compliance, [&](int l) { return static_cast<T>(row.compliance->lane[l]); });
+  } else {
+    Fill<T>(compliance, [](int) { return T{0}; });
+  }
+}
+
+template <class T>
+void FindSlack(const PairLaw<T>& law) {
+  LineOf<T> compliance;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    LineOf<T>* const slack = &law.slack[i];
+    Fill<T>(slack, [&](int l) { return slack->lane[l] - static_cast<T>(row.target->lane[l]); });
+    if (!row.shape.soft) return;
+    FindCompliances<T>(row, &compliance);
+    Fill<T>(slack, [&](int l) { return slack->lane[l] + compliance.lane[l] * law.x[i].lane[l]; });
+  });
+}
+
+template <class T>
+void Predict(const PairLaw<T>& law) {
+  PredictedBounds<T> predicted(law);
+  BoundLines<T> bounds;
+  LineOf<T> inverse;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    predicted.Find(row, &bounds);
+    FindInverseDiagonals<T>(row, &inverse);
+    Fill<RowSide>(&law.sides[i], [&](int l) {
+      const T lo = bounds.lo.lane[l], hi = bounds.hi.lane[l], near = law.lanes.tolerance.lane[l];
+      const T natural = law.x[i].lane[l] - law.slack[i].lane[l] * inverse.lane[l];
+      const RowSide up = natural < hi - near ? RowSide::kFree : RowSide::kHi;
+      const RowSide inside = natural > lo + near ? up : RowSide::kLo;
+      return hi - lo > 2 * near ? inside : RowSide::kLo;
+    });
+  });
+}
+
+template <class T>
+void FindWeights(const PairLaw<T>& law) {
+  LineOf<T> inverse, compliance;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    const bool joint = row.shape.bound == RowBound::kFree;
+    const LineOf<T>& eps = joint ? law.lanes.proximal_joints : law.lanes.proximal;
+    FindInverseDiagonals<T>(row, &inverse);
+    FindCompliances<T>(row, &compliance);
+    Fill<T>(&law.weights[i], [&](int l) {
+      const T weight =
+          law.lanes.taken.lane[l] / (compliance.lane[l] + eps.lane[l] / inverse.lane[l]);
+      return law.sides[i].lane[l] == RowSide::kFree ? weight : T{0};
+    });
+  });
+}
+
+template <class T>
+void Fix(const PairLaw<T>& law) {
+  BoundLines<T> bounds;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    if (row.shape.bound == RowBound::kFree) return;
+    FindBounds<T>(row, row.shape.parent < 0 ? nullptr : law.x + row.shape.parent, &bounds);
+    Fill<T>(&law.x[i], [&](int l) {
+      const RowSide side = law.lanes.taken.lane[l] != 0 ? law.sides[i].lane[l] : RowSide::kFree;
+      return AtBound(side, law.x[i].lane[l], bounds.lo.lane[l], bounds.hi.lane[l]);
+    });
+  });
+}
+
+template <class T>
+std::uint32_t RemoveViolated(const PairLaw<T>& law) {
+  PredictedBounds<T> predicted(law);
+  BoundLines<T> bounds;
+  SideLine before;
+  std::uint32_t removed = 0;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    if (row.shape.bound == RowBound::kFree) return;
+    predicted.Find(row, &bounds);
+    before = law.sides[i];
+    Fill<RowSide>(&law.sides[i], [&](int l) {
+      const T now = law.x[i].lane[l], near = law.lanes.tolerance.lane[l];
+      // what is not a number leaves, too
+      const RowSide side = now > bounds.hi.lane[l] + near ? RowSide::kHi : RowSide::kFree;
+      const RowSide left = now >= bounds.lo.lane[l] - near ? side : RowSide::kLo;
+      const bool looked_at = before.lane[l] == RowSide::kFree && law.lanes.taken.lane[l] != 0;
+      return looked_at ? left : before.lane[l];
+    });
+    for (int l = 0; l < kLanes; ++l) {
+      removed |= std::uint32_t{law.sides[i].lane[l] != before.lane[l]} << l;
+    }
+  });
+  return removed;
+}
+
+template <class T>
+void FindJointWeights(const PairLaw<T>& law) {
+  LineOf<T> inverse;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    const bool condensed = row.shape.bound == RowBound::kFree && !row.shape.soft;
+    if (!condensed) return Fill<T>(&law.weights[i], [](int) { return T{0}; });
+    FindInverseDiagonals<T>(row, &inverse);
+    Fill<T>(&law.weights[i], [&](int l) {
+      const T weight =
+          law.lanes.taken.lane[l] / (law.lanes.proximal_joints.lane[l] / inverse.lane[l]);
+      return law.lanes.taken.lane[l] != 0 ? weight : T{0};
+    });
+  });
+}
+
+template <class T>
+void CopyWeighted(const PairLaw<T>& law) {
+  for (int i = 0; i < law.block.row_count; ++i) {
+    Fill<T>(&law.product[i],
+            [&](int l) { return law.weights[i].lane[l] != 0 ? law.x[i].lane[l] : T{0}; });
+  }
+}
+
+template <class T>
+void ClearWeighted(const PairLaw<T>& law) {
+  for (int i = 0; i < law.block.row_count; ++i) {
+    Fill<T>(&law.x[i],
+            [&](int l) { return law.weights[i].lane[l] != 0 ? T{0} : law.x[i].lane[l]; });
+  }
+}
+
+template <class T>
+LineOf<T> FindJointSpeeds(const PairLaw<T>& law) {
+  LineOf<T> speeds = {}, inverse;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    if (row.shape.bound != RowBound::kFree) return;
+    FindInverseDiagonals<T>(row, &inverse);
+    for (int l = 0; l < kLanes; ++l) {
+      const T speed = std::abs(law.x[i].lane[l]) / inverse.lane[l];
+      speeds.lane[l] = std::max(speeds.lane[l], speed);
+    }
+  });
+  return speeds;
+}
+
+template <class T>
+void Weigh(const PairLaw<T>& law) {
+  for (int i = 0; i < law.block.row_count; ++i) {
+    Fill<T>(&law.product[i],
+            [&](int l) { return -(law.weights[i].lane[l] * law.slack[i].lane[l]); });
+  }
+}
+
+template <class T>
+void Advance(const PairLaw<T>& law) {
+  for (int i = 0; i < law.block.row_count; ++i) {
+    Fill<T>(&law.x[i], [&](int l) {
+      const T slack = law.slack[i].lane[l] + law.product[i].lane[l];
+      return law.x[i].lane[l] - law.weights[i].lane[l] * slack;
+    });
+  }
+}
+
+template <class T>
+void Project(const PairLaw<T>& law) {
+  BoundLines<T> bounds;
+  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+    if (row.shape.bound == RowBound::kFree) return;
+    FindBounds<T>(row, row.shape.parent < 0 ? nullptr : law.x + row.shape.parent, &bounds);
+    Fill<T>(&law.x[i], [&](int l) {
+      return std::min(std::max(law.x[i].lane[l], bounds.lo.lane[l]), bounds.hi.lane[l]);
+    });
+  });
+}
+
+template <class T>
+constexpr PairLawKernels<T> kKernels = {FindSlack<T>,     Predict<T>,          FindWeights<T>,
+                                        Fix<T>,           RemoveViolated<T>,   Weigh<T>,
+                                        Advance<T>,       FindJointWeights<T>, CopyWeighted<T>,
+                                        ClearWeighted<T>, FindJointSpeeds<T>,  Project<T>};
+
+}  // namespace laws
+}  // namespace HWY_NAMESPACE
+}  // namespace cairn::simd
+HWY_AFTER_NAMESPACE();
+
+#endif

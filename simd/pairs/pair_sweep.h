@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "simd/pairs/pair_block.h"
+#include "simd/target.h"
+
+namespace cairn::simd {
+
+/// Blocks to work on, in this order. Blocks that are worked on at the same time share no body.
+struct PairWork {
+  const PairBlock* blocks = nullptr;
+  int count = 0;
+  const Line* data = nullptr;  ///< Constant part of the rows.
+  Line* x = nullptr;           ///< Impulses.
+  BodyLane* bodies = nullptr;  ///< By slot.
+  /// One for each block. Read by nothing, written by the passes that measure.
+  BlockError* errors = nullptr;
+  int sweep = 0;             ///< Sweeps of the Solve() made before this one.
+  bool hold_lifted = false;  ///< LiftedFriction::kHold
+};
+
+/// What can be done with blocks. Same bits on every target.
+struct PairKernels {
+  using Kernel = void (*)(const PairWork& work);
+
+  /// u += G' x, to start from given impulses.
+  Kernel start;
+  /// Relaxes every row alone, one after the other, and brings it back inside its bounds:
+  ///   x := clamp(x - step w),   w = G u + compliance x - target,   u += G' (change of x).
+  Kernel sweep;
+  /// The same, and errors from what every row was moved by. They are natural residuals of states on
+  /// the way through the sweep, not of the one it ends with.
+  Kernel measured_sweep;
+  /// Natural residuals of the present state. Changes nothing else.
+  Kernel measure;
+};
+
+/// Kernels for one target. @pre the CPU supports it
+const PairKernels& PairKernelsFor(Target target);
+
+}  // namespace cairn::simd
