@@ -244,7 +244,7 @@ TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
                {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
   world.Step();
   EXPECT_EQ(solver.report().stop, StopReason::kTimeSpent);
-  EXPECT_EQ(solver.report().sweeps, 1);  // Settings::min_sweeps
+  EXPECT_EQ(solver.report().sweeps, Settings::kLateSweeps);
 }
 
 TEST(Features, ABudgetOfAllTheTimeThereIsEndsNothing) {
