@@ -17,9 +17,10 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Share of a budget of time, 1 / kReserve, that is left over, so that the last block of rows still
-/// ends inside it.
+/// Share of a budget of time, 1 / kReserve, that is left over, and more: what is set aside for the
+/// rest is what that took of late, not what it takes at worst.
 constexpr int kReserve = 50;
+constexpr nanoseconds kMoreReserve{10'000};
 /// What writing took is set aside for it, and that falls by this share in a substep that takes
 /// less: what is not set aside is overrun.
 constexpr int kWriteMemory = 50;
@@ -111,8 +112,9 @@ nanoseconds ConstraintSolver::Impl::Now() const {
 
 void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
   if (budget->kind() != Budget::Kind::kTime || !budget->valid()) return;
+  const nanoseconds reserve = budget->time() / kReserve + kMoreReserve;
   const nanoseconds left =
-      budget->time() - budget->time() / kReserve - Passed(start, Now()) - write_time - finish_time;
+      budget->time() - reserve - Passed(start, Now()) - write_time - finish_time;
   *budget = Budget::Time(std::max(left, nanoseconds(0)));
 }
 

@@ -84,7 +84,9 @@ NoStep BlockCycle::PlanGraph(int g, std::span<const int> islands, const PlannedS
   const auto analysis = steps_.PriceOfAnalysis(g, islands);
   if (analysis.whole > 0) {
     // where the step does not fit any more after it, it will in the next frame
-    if (!meter_->Fits(planned.steps + analysis.whole, planned.sweeps)) return NoStep::kTooDear;
+    if (!meter_->FitsAnalysis(analysis.whole, planned.steps, planned.sweeps)) {
+      return NoStep::kTooDear;
+    }
     if (!pays(guess + analysis.of_step)) return NoStep::kSweepsFaster;
     steps_.Analyse(g, islands);
   }

@@ -17,9 +17,9 @@ constexpr double kStepMemory = 0.2;
 /// What a step that is tried to learn its price, and cannot be given up, may take beyond the budget
 /// [ns], as far as known; and no more than the budget once again.
 constexpr double kMostExploration = 1e5;
-/// What comes after the iteration is overrun if too little is set aside for it: its price rises at
-/// once, up to so many times itself, and falls slowly.
-constexpr double kFinishRise = 2, kFinishMemory = 0.02;
+/// What comes after the iteration, and what cannot be given up, is overrun if too little is set
+/// aside for it: such a price rises at once, up to so many times itself, and falls slowly.
+constexpr double kMostRise = 2, kFinishMemory = 0.02;
 /// No work is cheaper than that, whatever a clock says that stands still [ns].
 constexpr double kLeastPrice = 0.05;
 /// Frames from one trial to the next, at first and at most.
@@ -34,6 +34,14 @@ double ToDouble(std::chrono::nanoseconds time) { return static_cast<double>(time
 
 void Learn(double measured, double memory, double* price) {
   *price += memory * (std::clamp(measured, kLeastPrice, kMostSurprise * *price) - *price);
+}
+
+void LearnMost(double measured, double memory, double* price) {
+  if (measured > *price) {
+    *price = std::min(measured, kMostRise * *price);
+  } else {
+    Learn(measured, memory, price);
+  }
 }
 
 }  // namespace
@@ -83,6 +91,8 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
     const double ns = ToDouble(now - last_) / units;
     if (kind == WorkKind::kSweep) {
       Learn(ns, kPriceMemory, &prices_->sweep_ns);
+    } else if (kind == WorkKind::kAnalysis) {
+      LearnMost(ns, kStepMemory, &prices_->analysis_ns);
     } else if (kind == WorkKind::kStep) {
       steps_predicted_ += units * prices_->step_ns;
       steps_time_ += now - last_;
@@ -105,7 +115,7 @@ void BudgetMeter::ChargeStep(double units, bool given_up) {
   const double ns = ToDouble(Now() - last_) / units;
   if (ns > prices_->step_ns) Learn(ns, 1, &prices_->step_ns);
   stepped_ = true;
-  Charge(WorkKind::kAnalysis, units);
+  Charge(WorkKind::kPartOfStep, units);
   Answer(false);
 }
 
@@ -126,11 +136,7 @@ void BudgetMeter::ChargeFinish() {
   }
   if (budget_.kind() != Budget::Kind::kTime || rows_ <= 0) return;
   const double ns = ToDouble(Now() - last_) / rows_;
-  if (ns > prices_->finish_ns) {
-    prices_->finish_ns = std::min(ns, kFinishRise * prices_->finish_ns);
-  } else {
-    Learn(ns, kFinishMemory, &prices_->finish_ns);
-  }
+  LearnMost(ns, kFinishMemory, &prices_->finish_ns);
 }
 
 double BudgetMeter::TimeLeft(Nanoseconds now) const {
@@ -170,19 +176,20 @@ double BudgetMeter::work_left() const {
   return static_cast<double>(budget_.work()) - work_;
 }
 
-bool BudgetMeter::Predict(double step_units, double sweep_units) const {
+bool BudgetMeter::Predict(const Plans& plans) const {
   switch (budget_.kind()) {
     case Budget::Kind::kUnlimited:
       return true;
     case Budget::Kind::kWork:
-      return work_ + step_units + sweep_units <= static_cast<double>(budget_.work());
+      return work_ + (plans.step_units + plans.analysis_units) + plans.sweep_units <=
+             static_cast<double>(budget_.work());
     case Budget::Kind::kTime:
       break;
   }
   // sweeps end where the budget does
-  const double needed =
-      kStepMargin * step_units * prices_->step_ns + sweep_units * prices_->sweep_ns;
-  return needed <= TimeLeft(Now());
+  const double steps =
+      plans.step_units * prices_->step_ns + plans.analysis_units * prices_->analysis_ns;
+  return kStepMargin * steps + plans.sweep_units * prices_->sweep_ns <= TimeLeft(Now());
 }
 
 bool BudgetMeter::Explores(double step_units, double sweep_units) const {
@@ -201,11 +208,19 @@ bool BudgetMeter::Fits(double step_units, double sweep_units) {
   if (replayed_ != nullptr) {
     return answers_ < replayed_->fits.size() && replayed_->fits[answers_++] != 0;
   }
-  bool fits = Predict(step_units, sweep_units);
+  bool fits = Predict({.step_units = step_units, .sweep_units = sweep_units});
   if (!fits && step_units > 0) {
     fits = Explores(step_units, sweep_units);
     (fits ? explores_ : refused_) = true;
   }
+  Answer(fits);
+  return fits;
+}
+
+bool BudgetMeter::FitsAnalysis(double analysis_units, double step_units, double sweep_units) {
+  if (replayed_ != nullptr) return Fits(0, 0);
+  const bool fits = Predict({analysis_units, step_units, sweep_units});
+  if (!fits) refused_ = true;
   Answer(fits);
   return fits;
 }

@@ -22,14 +22,16 @@ inline int LeastSweeps(const Settings& settings, int late = Settings::kLateSweep
 enum class WorkKind {
   kSweep,
   kStep,
-  kAnalysis,  ///< At the price of steps; it comes too rarely to be learnt.
+  kPartOfStep,  ///< Of one that was given up: says little of a price.
+  kAnalysis,
 };
 
 /// Nanoseconds that work takes on this machine, learnt from timed frames; see BudgetMeter.
 struct WorkPrices {
-  double sweep_ns = 2;    ///< a work unit of sweeps
-  double step_ns = 1.3;   ///< a work unit of steps
-  double finish_ns = 10;  ///< a row, from the last sweep to the end of the Solve()
+  double sweep_ns = 2;     ///< a work unit of sweeps
+  double step_ns = 1.3;    ///< a work unit of steps
+  double analysis_ns = 2;  ///< a work unit of analyses, as of late at most
+  double finish_ns = 10;   ///< a row, from the last sweep to the end of the Solve()
   /// What a work unit of steps takes on fast machines and on slow ones.
   double least_step_ns = 0.5, most_step_ns = 2.6;
   double unseen_rows = 0;          ///< relaxed between two looks at the clock, at most
@@ -83,6 +85,9 @@ class BudgetMeter {
   /// The answer goes to Replay::fits, or comes from there.
   bool Fits(double step_units, double sweep_units);
 
+  /// The same before an analysis, which cannot be given up and is not tried.
+  bool FitsAnalysis(double analysis_units, double step_units, double sweep_units);
+
   StopReason stop_reason() const;
   std::int64_t work() const { return static_cast<std::int64_t>(work_); }
   /// 0 unless the budget is a time.
@@ -100,7 +105,11 @@ class BudgetMeter {
   /// Nanoseconds of the budget that are left for the iteration. @pre the budget is a time
   double TimeLeft(Nanoseconds now) const;
   void Answer(bool answer);
-  bool Predict(double step_units, double sweep_units) const;
+  /// Work that may come next.
+  struct Plans {
+    double analysis_units = 0, step_units = 0, sweep_units = 0;
+  };
+  bool Predict(const Plans& plans) const;
   /// Whether a step that does not fit is tried, to learn what it takes: it would fit on a fast
   /// machine, will not exceed the budget by much if it cannot be given up, and none was tried for
   /// long.

@@ -42,6 +42,7 @@ int BlockStep<T>::Take(const Plan& plan, int group, int refinements, BlockSystem
     // what was left undone on the way is of no use
     ForIslands([this](int island) { islands_[island].result = {}; });
   } else {
+    deadline_ = nullptr;  // from here on it is done to the end
     Write();
   }
   return made;
