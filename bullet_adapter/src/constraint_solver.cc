@@ -21,9 +21,9 @@ using std::chrono::nanoseconds;
 /// rest is what that took of late, not what it takes at worst.
 constexpr int kReserve = 50;
 constexpr nanoseconds kMoreReserve{10'000};
-/// What writing took is set aside for it, and that falls by this share in a substep that takes
-/// less: what is not set aside is overrun.
-constexpr int kWriteMemory = 50;
+/// What writing took is set aside for it, for so many substeps or so: what is not set aside is
+/// overrun. What takes several times as long was interrupted, and says little.
+constexpr int kWriteMemory = 50, kMostSurprise = 4;
 
 /// Where an island is done without a budget [m/s] and [rad/s]: less than a thousandth of what
 /// gravity adds in a step at 60 Hz, and than ten iterations of Bullet leave on a box on an incline.
@@ -36,7 +36,11 @@ constexpr const char* kSource =
 nanoseconds Passed(nanoseconds from, nanoseconds to) { return std::max(to - from, nanoseconds(0)); }
 
 void SetAside(nanoseconds took, nanoseconds* time) {
-  *time = std::max(took, *time - *time / kWriteMemory);
+  if (*time > nanoseconds(0) && took / kMostSurprise > *time) {
+    *time += *time / kMostSurprise;
+  } else {
+    *time = std::max(took, *time - *time / kWriteMemory);
+  }
 }
 
 bool Unlimited(const Settings& settings) {

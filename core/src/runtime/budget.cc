@@ -18,8 +18,9 @@ constexpr double kStepMemory = 0.2;
 /// [ns], as far as known; and no more than the budget once again.
 constexpr double kMostExploration = 1e5;
 /// What comes after the iteration, and what cannot be given up, is overrun if too little is set
-/// aside for it: such a price rises at once, up to so many times itself, and falls slowly.
-constexpr double kMostRise = 2, kFinishMemory = 0.02;
+/// aside for it: such a price rises at once, up to so many times itself, and falls slowly. What was
+/// interrupted does not say how far.
+constexpr double kMostRise = 2, kInterruptedRise = 1.25, kFinishMemory = 0.02;
 /// No work is cheaper than that, whatever a clock says that stands still [ns].
 constexpr double kLeastPrice = 0.05;
 /// Frames from one trial to the next, at first and at most.
@@ -37,7 +38,9 @@ void Learn(double measured, double memory, double* price) {
 }
 
 void LearnMost(double measured, double memory, double* price) {
-  if (measured > *price) {
+  if (measured > kMostSurprise * *price) {
+    *price *= kInterruptedRise;
+  } else if (measured > *price) {
     *price = std::min(measured, kMostRise * *price);
   } else {
     Learn(measured, memory, price);
