@@ -20,7 +20,6 @@ namespace {
 
 using bench::ContactFrame;
 using cli::Median;
-using cli::Quantile;
 
 /// One solve in so many is measured again in double precision, outside the clocks.
 constexpr int kCheckEvery = 97;
@@ -105,13 +104,6 @@ std::vector<Lane> SolveAll(const std::vector<ContactFrame>& frames, const Budget
   }
   return lanes;
 }
-
-std::string Spread(std::span<const double> values) {
-  return fmt::format("{:.0f} / {:.0f} / {:.0f} / {:.0f}", Median(values), Quantile(values, 0.99),
-                     Quantile(values, 0.999), cli::Largest(values));
-}
-
-std::string Percent(double part, double all) { return fmt::format("{:.1f}", 100 * part / all); }
 
 double Over(const std::vector<double>& overshoots) {
   return static_cast<double>(

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,8 +56,35 @@ enum class Steps { kWherePredicted, kNone };
 /// on in the caches, and with caches emptied before.
 void PrintParts(const WindowOptions& options, Steps steps, const std::string& command);
 
+/// What budgets are measured with.
+enum class BudgetClock {
+  kWall,
+  kThreadCpu,  ///< As on a machine with nothing else to do.
+};
+
+struct DeadlineOptions {
+  std::vector<SceneChoice> scenes;
+  int worlds = 200;  ///< Random worlds of seeds from first_seed on, all in one row.
+  std::uint64_t first_seed = 0;
+  std::vector<double> budgets_ms = {0.25, 0.5, 1, 2, 4, 8, 16};
+  int warm_up = 30;    ///< Frames of each world that do not count.
+  int frames = 240;    ///< Of a scene, after those.
+  double seconds = 3;  ///< Of a random world, with those.
+  BudgetClock clock = BudgetClock::kWall;
+  Settings settings;  ///< All but the budget and its clock.
+};
+
+/// By how much the adapter exceeds Budget::Time in worlds that it drives, CPU time and wall clock.
+void PrintDeadlines(const DeadlineOptions& options, const std::string& command);
+
 /// "pyramid 100"; without a size that is the default.
 std::string NameOf(const SceneChoice& scene);
+
+/// "p50 / p99 / p99.9 / max", or "-" of nothing.
+std::string Spread(std::span<const double> values);
+
+/// With one digit, or "-" of nothing.
+std::string Percent(double part, double all);
 
 /// Plain sweeps, as many as asked: nothing else ends a Solve().
 Settings Sweeps(int count, int threads);

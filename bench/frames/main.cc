@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <map>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "CLI/CLI.hpp"
 #include "frames/experiments.h"
 #include "support/command_line.h"
+#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {
@@ -67,6 +69,30 @@ void AddBudget(CLI::App* app, BudgetOptions* options) {
   const std::map<std::string, Method> methods = {
       {"pgs", Method::kPgs}, {"psor", Method::kPsor}, {"pgs-sm", Method::kPgsSm}};
   app->add_option("--method", options->method)->transform(CLI::CheckedTransformer(methods));
+}
+
+void AddDeadlines(CLI::App* app, DeadlineOptions* options) {
+  app->add_option("--worlds", options->worlds, "Random worlds")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  app->add_option("--first-seed", options->first_seed, "Of the random worlds");
+  app->add_option("--budget", options->budgets_ms, "[ms]; may be repeated")
+      ->check(CLI::NonNegativeNumber);
+  app->add_option("--warm-up", options->warm_up, "Frames of each world that do not count")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  app->add_option("--frames", options->frames, "Of a scene, after those")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app->add_option("--seconds", options->seconds, "Of a random world")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  const std::map<std::string, BudgetClock> clocks = {{"wall", BudgetClock::kWall},
+                                                     {"cpu", BudgetClock::kThreadCpu}};
+  app->add_option("--clock", options->clock, "That budgets are measured with: wall or cpu")
+      ->transform(CLI::CheckedTransformer(clocks));
+  app->add_option("--min-sweeps", options->settings.min_sweeps, "Settings::min_sweeps");
+  app->add_option("--threads", options->settings.threads)->capture_default_str();
 }
 
 /// What was typed behind the options of `cairn_frames parts`.
@@ -128,6 +154,13 @@ int Main(int count, char** arguments) {
   CLI::App* const parts_app = app.add_subcommand("parts", "Where a substep goes");
   AddParts(parts_app, &parts);
 
+  DeadlineOptions deadlines;
+  std::vector<std::string> deadline_scenes = {"castle", "islands", "rubble"};
+  CLI::App* const deadlines_app =
+      app.add_subcommand("deadlines", "How well Budget::Time is kept in worlds, with steps");
+  AddScenes(deadlines_app, &deadline_scenes);
+  AddDeadlines(deadlines_app, &deadlines);
+
   CLI11_PARSE(app, count, arguments);
   const std::string command = cli::WithoutPaths("cairn_frames", {arguments + 1, arguments + count});
   if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
@@ -143,6 +176,9 @@ int Main(int count, char** arguments) {
   } else if (parts_app->parsed()) {
     parts.options.scenes = ParseScenes(parts.scenes, parts.size);
     PrintParts(parts.options, parts.no_steps ? Steps::kNone : Steps::kWherePredicted, command);
+  } else if (deadlines_app->parsed()) {
+    deadlines.scenes = ParseScenes(deadline_scenes);
+    PrintDeadlines(deadlines, command);
   } else if (step_app->parsed()) {
     step.scenes = ParseScenes(step_scenes);
     PrintSteps(step, command);
@@ -154,6 +190,17 @@ int Main(int count, char** arguments) {
 }
 
 }  // namespace
+
+std::string Spread(std::span<const double> values) {
+  if (values.empty()) return "-";
+  return fmt::format("{:.0f} / {:.0f} / {:.0f} / {:.0f}", cli::Median(values),
+                     cli::Quantile(values, 0.99), cli::Quantile(values, 0.999),
+                     cli::Largest(values));
+}
+
+std::string Percent(double part, double all) {
+  return all > 0 ? fmt::format("{:.1f}", 100 * part / all) : "-";
+}
 
 std::string NameOf(const SceneChoice& scene) {
   const bool usual = scene.size == scene.info->default_size;

@@ -42,7 +42,7 @@ enum Part {
 };
 
 constexpr std::array<const char*, kParts> kNames = {
-    "build: bodies", "build: joints", "build: contacts", "plan",  "pack", "sweeps",
+    "build: bodies", "build: joints", "build: contacts", "plan",    "pack",  "sweeps",
     "measuring",     "guards",        "steps",           "results", "write", "other"};
 
 /// What of a substep a solver is given.

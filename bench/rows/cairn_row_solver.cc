@@ -24,6 +24,7 @@ std::string CairnRowSolver::Prepare(const RowProblem& problem) {
 void CairnRowSolver::IterateUntil(const RowLimit& limit) {
   solver_.settings().max_sweeps = limit.iterations.value_or(std::numeric_limits<int>::max());
   solver_.settings().budget = limit.time ? Budget::Time(*limit.time) : Budget::Unlimited();
+  solver_.settings().clock = limit.clock;
   solver_.Solve(problem_->frame.problem(), impulses(), velocities_, &report_);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/budget.h"
 #include "lcp/lcp_solver.h"
 #include "rows/row_problem.h"
 
@@ -15,25 +16,30 @@ namespace cairn::cli {
 struct RowLimit {
   std::optional<int> iterations;
   std::optional<std::chrono::nanoseconds> time;  ///< From the call of IterateUntil() on.
+  /// That the time is measured with; nullptr: std::chrono::steady_clock. For tests.
+  const Clock* clock = nullptr;
 };
 
 /// Says when a solver that iterates has to end: for (RowStop stop(limit); !stop(done); ++done) ...
 /// One iteration is made in any case.
 class RowStop {
  public:
-  explicit RowStop(const RowLimit& limit) : limit_(limit), begin_(Clock::now()) {}
+  explicit RowStop(const RowLimit& limit) : limit_(limit), begin_(Now()) {}
 
   bool operator()(int iterations) const {
     if (limit_.iterations && iterations >= *limit_.iterations) return true;
     return iterations > 0 && limit_.time && spent() >= *limit_.time;
   }
-  std::chrono::nanoseconds spent() const { return Clock::now() - begin_; }
+  std::chrono::nanoseconds spent() const { return Now() - begin_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  std::chrono::nanoseconds Now() const {
+    if (limit_.clock != nullptr) return limit_.clock->Now();
+    return std::chrono::steady_clock::now().time_since_epoch();
+  }
 
   RowLimit limit_;
-  Clock::time_point begin_;
+  std::chrono::nanoseconds begin_;
 };
 
 /// What a solver made of a frame. Counts are 0 where they have no meaning.

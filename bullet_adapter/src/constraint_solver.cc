@@ -15,11 +15,15 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using std::chrono::nanoseconds;
 
-/// Share of a budget of time, 1 / kReserve, that is left over, so that the last block of rows still
-/// ends inside it.
+/// Share of a budget of time, 1 / kReserve, that is left over, and more: what is set aside for the
+/// rest is what that took of late, not what it takes at worst.
 constexpr int kReserve = 50;
+constexpr nanoseconds kMoreReserve{10'000};
+/// What writing took is set aside for it, for so many substeps or so: what is not set aside is
+/// overrun. What takes several times as long was interrupted, and says little.
+constexpr int kWriteMemory = 50, kMostSurprise = 4;
 
 /// Where an island is done without a budget [m/s] and [rad/s]: less than a thousandth of what
 /// gravity adds in a step at 60 Hz, and than ten iterations of Bullet leave on a box on an incline.
@@ -27,6 +31,17 @@ constexpr double kGoodEnough = 1e-4;
 
 constexpr const char* kSource =
     sizeof(btScalar) == 4 ? "cairn::bullet, float" : "cairn::bullet, float64";
+
+/// A clock may jump back.
+nanoseconds Passed(nanoseconds from, nanoseconds to) { return std::max(to - from, nanoseconds(0)); }
+
+void SetAside(nanoseconds took, nanoseconds* time) {
+  if (*time > nanoseconds(0) && took / kMostSurprise > *time) {
+    *time += *time / kMostSurprise;
+  } else {
+    *time = std::max(took, *time - *time / kWriteMemory);
+  }
+}
 
 bool Unlimited(const Settings& settings) {
   return settings.budget.kind() == Budget::Kind::kUnlimited;
@@ -82,9 +97,10 @@ struct ConstraintSolver::Impl {
   btDispatcher* dispatcher = nullptr;
 
   /// What of a Budget::Time is not for the iteration.
-  Clock::time_point start;
-  std::chrono::nanoseconds write_time{0}, finish_time{0};  ///< of the last group
+  nanoseconds start{0};
+  nanoseconds write_time{0}, finish_time{0};  ///< as far as known
 
+  nanoseconds Now() const;
   void SetTimeLeft(Budget* budget) const;
 
   std::unique_ptr<Recorder> recorder = Recorder::FromEnvironment(kSource);
@@ -93,19 +109,25 @@ struct ConstraintSolver::Impl {
   bool BeginRecording(const ContactProblem& problem, const Impulses& impulses);
 };
 
+nanoseconds ConstraintSolver::Impl::Now() const {
+  if (settings.clock != nullptr) return settings.clock->Now();
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
 void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
   if (budget->kind() != Budget::Kind::kTime || !budget->valid()) return;
-  const std::chrono::nanoseconds left = budget->time() - budget->time() / kReserve -
-                                        (Clock::now() - start) - write_time - finish_time;
-  *budget = Budget::Time(std::max(left, std::chrono::nanoseconds(0)));
+  const nanoseconds reserve = budget->time() / kReserve + kMoreReserve;
+  const nanoseconds left =
+      budget->time() - reserve - Passed(start, Now()) - write_time - finish_time;
+  *budget = Budget::Time(std::max(left, nanoseconds(0)));
 }
 
 bool ConstraintSolver::Impl::BeginRecording(const ContactProblem& problem,
                                             const Impulses& impulses) {
   if (recorder == nullptr) return false;
-  const Clock::time_point begin = Clock::now();
+  const nanoseconds begin = Now();
   const bool recording = recorder->Begin(problem, impulses);
-  start += Clock::now() - begin;
+  start += Passed(begin, Now());
   return recording;
 }
 
@@ -166,7 +188,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
     impl_->dispatcher = dispatcher;
     return 0;
   }
-  impl_->start = Clock::now();
+  impl_->start = impl_->Now();
   impl_->fell_back = impl_->solved_fast = false;
   impl_->times = {};
   bool solved = false;
@@ -223,22 +245,23 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     return true;
   }
   const bool recording = impl_->BeginRecording(fast.problem(), fast.impulses());
-  const Clock::time_point built = Clock::now();
+  const nanoseconds built = impl_->Now();
   Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
+  const nanoseconds solved = impl_->Now();
   if (impl_->report.ok() && !fast.FitsBullet()) impl_->report.status = Status::kOverflow;
   impl_->solved_fast = impl_->report.ok();
 
-  const Clock::time_point solved = Clock::now();
   if (impl_->solved_fast) {
     const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kWrite});
     if (impl_->options.geometric_stiffness) fast.Learn(info, impl_->report);
     fast.Write(info);
-    impl_->write_time = Clock::now() - solved;
+    const nanoseconds write = Passed(solved, impl_->Now());
+    SetAside(write, &impl_->write_time);
     impl_->finish_time = {};
-    impl_->times = {built - impl_->start, solved - built, impl_->write_time};
+    impl_->times = {Passed(impl_->start, built), Passed(built, solved), write};
   }
   if (recording) impl_->recorder->End(settings, impl_->report);
   if (!impl_->solved_fast) return false;
@@ -287,11 +310,11 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer);
   }
-  const Clock::time_point solved = Clock::now();
+  const nanoseconds solved = impl_->Now();
   impl_->rows.Write(pools);
   solveGroupCacheFriendlySplitImpulseIterations(bodies, num_bodies, manifolds, num_manifolds,
                                                 constraints, num_constraints, info, debug_drawer);
-  impl_->write_time = Clock::now() - solved;
+  SetAside(Passed(solved, impl_->Now()), &impl_->write_time);
 
   const Group group{{bodies, static_cast<size_t>(num_bodies)},
                     {manifolds, static_cast<size_t>(num_manifolds)},
@@ -302,10 +325,10 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
 
 btScalar ConstraintSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int num_bodies,
                                                          const btContactSolverInfo& info) {
-  const Clock::time_point start = Clock::now();
+  const nanoseconds start = impl_->Now();
   const btScalar result =
       btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, num_bodies, info);
-  impl_->finish_time = Clock::now() - start;
+  SetAside(Passed(start, impl_->Now()), &impl_->finish_time);
   return result;
 }
 

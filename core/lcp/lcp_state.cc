@@ -139,7 +139,7 @@ void LcpState::Begin(const Eigen::VectorXd& start) {
 }
 
 void LcpState::EndIfSpent() {
-  if (meter_->spent() && report_.sweeps >= settings_.min_sweeps) End(meter_->stop_reason());
+  if (meter_->spent() && report_.sweeps >= LeastSweeps(settings_, 1)) End(meter_->stop_reason());
 }
 
 void LcpState::Fail() {

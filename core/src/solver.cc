@@ -33,7 +33,8 @@ bool InBlocks(const ContactProblem& problem, const Settings& settings) {
 
 BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
   if (settings.replay != nullptr) return BudgetMeter(*settings.replay, prices);
-  return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices);
+  return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices,
+                     settings.clock);
 }
 
 /// Report::bad_row and its like, from one who looked.
@@ -118,7 +119,7 @@ struct Solver::Impl {
   void Forget() {
     blocks.reset();
     lcp.reset();
-    block_prices = {};
+    block_prices = kBlockPrices;
     row_prices = kRowPrices;
   }
   /// False, and nothing is written, if the result is not finite.
@@ -129,12 +130,18 @@ struct Solver::Impl {
   bool SolveRows(const ContactProblem& problem, BudgetMeter* meter, const RowsOut& out,
                  Report* report);
 
-  static constexpr WorkPrices kRowPrices = {
-      .sweep_ns = 20, .step_ns = 20, .finish_ns = 30, .least_step_ns = 8, .most_step_ns = 40};
+  static constexpr WorkPrices kRowPrices = {.sweep_ns = 20,
+                                            .step_ns = 20,
+                                            .finish_ns = 30,
+                                            .least_step_ns = 8,
+                                            .most_step_ns = 40,
+                                            .unseen_rows = 256};
 
   Settings settings;
   Observer observer;
-  WorkPrices block_prices, row_prices = kRowPrices;
+  static constexpr WorkPrices kBlockPrices = {.unseen_rows = 8192, .can_give_up_steps = true};
+
+  WorkPrices block_prices = kBlockPrices, row_prices = kRowPrices;
   std::unique_ptr<BlockSolver> blocks;
   std::unique_ptr<LcpSolver> lcp;
 };
@@ -287,13 +294,13 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
       return;
     }
   }
-  meter.ChargeFinish();
   SumUp(report);
   report->work = meter.work();
   report->elapsed = meter.elapsed();
   report->step_predicted = meter.steps_predicted();
   report->step_time = meter.steps_time();
   impl_->blocks->memories().EndFrame();
+  meter.ChargeFinish();
 }
 
 }  // namespace cairn

@@ -18,6 +18,7 @@
 #include "rows/row_problem.h"
 #include "rows/row_solvers.h"
 #include "tests/bullet_adapter/scene_world.h"
+#include "tests/core/support/test_clock.h"
 #include "tests/simd/ask_for.h"
 
 namespace cairn::cli {
@@ -248,7 +249,9 @@ TEST(RowProblem, LetsSolversGoAsFarAsTheBudget) {
     CairnRowSolver solver(Method::kPgsSm, CountedOptions());
     for (int time = 0; time < 2; ++time) {
       ASSERT_EQ(solver.Prepare(*problem), "");
-      solver.IterateUntil({.iterations = {}, .time = std::chrono::milliseconds(400)});
+      const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(20));
+      solver.IterateUntil(
+          {.iterations = {}, .time = std::chrono::milliseconds(40), .clock = &clock});
       const RowOutcome outcome = solver.Result();
       EXPECT_GT(outcome.steps_accepted, 0) << scene << ", time " << time;
       EXPECT_GT(outcome.iterations, 30) << scene;
@@ -316,7 +319,11 @@ TEST(RowSolvers, EndWhenTheirTimeIsUp) {
       int last = 0;
       for (const int microseconds : {1, 1000, 8000}) {
         ASSERT_EQ(solver->Prepare(*problem), "");
-        solver->IterateUntil({.iterations = {}, .time = std::chrono::microseconds(microseconds)});
+        const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(50));
+        RowLimit limit{.iterations = {}, .time = std::chrono::microseconds(microseconds)};
+        // this one doubles its effort from look to look, by what that took
+        if (name != "bullet-pgs-mlcp") limit.clock = &clock;
+        solver->IterateUntil(limit);
         const int iterations = solver->Result().iterations;
         EXPECT_GT(iterations, last) << name;
         last = iterations;

@@ -12,6 +12,7 @@
 #include "cairn/bullet/constraint_solver.h"
 #include "scenes/facts.h"
 #include "scenes/world.h"
+#include "tests/core/support/test_clock.h"
 
 namespace cairn::test {
 namespace {
@@ -244,7 +245,70 @@ TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
                {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
   world.Step();
   EXPECT_EQ(solver.report().stop, StopReason::kTimeSpent);
-  EXPECT_EQ(solver.report().sweeps, 1);  // Settings::min_sweeps
+  EXPECT_EQ(solver.report().sweeps, Settings::kLateSweeps);
+}
+
+/// A pile after some steps under a budget of time by a clock of the test's own.
+struct TimedPile {
+  std::uint64_t hash = 0;
+  StopReason stop = StopReason::kNotStarted;  ///< of the last step
+};
+
+TimedPile StepTimedPile(const ScriptedClock& clock, bullet::Mode mode) {
+  Settings settings;
+  settings.budget = Budget::Time(std::chrono::milliseconds(1));
+  settings.clock = &clock;
+  settings.tolerance = 0;
+  bullet::Options options;
+  options.mode = mode;
+  bullet::ConstraintSolver solver(settings, options);
+  World world(&solver);
+  world.AddGround(10);
+  for (int i = 0; i < 12; ++i) {
+    world.AddBox(btVector3(1, 1, 1) / 2,
+                 {.mass = 1, .pose = At(0, btScalar(0.5) + btScalar(i), 0), .surface = {}});
+  }
+  for (int i = 0; i < 20; ++i) {
+    world.Step();
+    EXPECT_TRUE(solver.report().ok());
+    EXPECT_FALSE(solver.fell_back());
+    EXPECT_GE(solver.times().write, std::chrono::nanoseconds(0));
+  }
+  return {bench::StateHash(world), solver.report().stop};
+}
+
+constexpr bullet::Mode kModes[] = {bullet::Mode::kFast, bullet::Mode::kReference};
+
+// Where the clock is the same, so are the bits.
+TEST(Features, ABudgetOfTimeGoesByTheClockOfTheSettings) {
+  using std::chrono::microseconds;
+  for (const bullet::Mode mode : kModes) {
+    const TimedPile first = StepTimedPile(TickingClock(microseconds(10)), mode);
+    EXPECT_EQ(first.stop, StopReason::kTimeSpent);
+    EXPECT_EQ(StepTimedPile(TickingClock(microseconds(10)), mode).hash, first.hash);
+    EXPECT_NE(StepTimedPile(TickingClock(microseconds(50)), mode).hash, first.hash);
+  }
+}
+
+TEST(Features, AClockThatJumpsBackOrStandsStillDoesNoHarm) {
+  using std::chrono::nanoseconds;
+  for (const bullet::Mode mode : kModes) {
+    EXPECT_NE(StepTimedPile(TickingClock(nanoseconds(0)), mode).stop, StopReason::kTimeSpent);
+    for (const int every : {2, 7, 50}) {
+      StepTimedPile(ScriptedClock([every](int look) -> nanoseconds {
+                      return look % every == 0 ? nanoseconds(-std::chrono::minutes(1))
+                                               : nanoseconds(std::chrono::microseconds(20));
+                    }),
+                    mode);
+    }
+    // once, and budgets are kept afterwards
+    const ScriptedClock once([](int look) -> nanoseconds {
+      return look == 300 ? nanoseconds(-std::chrono::hours(1))
+                         : nanoseconds(std::chrono::microseconds(20));
+    });
+    EXPECT_EQ(StepTimedPile(once, mode).stop, StopReason::kTimeSpent);
+    EXPECT_LT(once.looks(), 20 * 400);
+  }
 }
 
 TEST(Features, ABudgetOfAllTheTimeThereIsEndsNothing) {

@@ -6,6 +6,15 @@
 
 namespace cairn {
 
+/// Where Budget::Time gets the time from. One that goes back is taken to stand still until it has
+/// caught up; while it stands still, Settings::max_sweeps and Settings::tolerance end a Solve().
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  /// Since any fixed point. Asked by the thread that calls Solve().
+  virtual std::chrono::nanoseconds Now() const = 0;
+};
+
 /// What one Solve() may cost. The state is a valid, feasible answer after every block of rows, so
 /// a budget decides how good the answer is, never whether there is one. Settings::min_sweeps are
 /// made in any case.
@@ -18,9 +27,9 @@ class Budget {
 
   /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every 8192
   /// rows, and what writing the results will take is set aside; a subspace step starts only if its
-  /// predicted cost and the sweeps after it fit. Results depend on the machine: Report::replay says
-  /// how to make them again. For a problem in matrix form the clock is read between sweeps and
-  /// between factorisations, not inside them.
+  /// predicted cost and the sweeps after it fit, and is given up where it takes longer. Results
+  /// depend on the machine: Report::replay says how to make them again. For a problem in matrix
+  /// form the clock is read between sweeps and between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());
   }

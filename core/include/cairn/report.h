@@ -128,7 +128,8 @@ struct Phases {
 struct Replay {
   /// Work units done when the time was up, the largest number if it never was.
   std::int64_t work = std::numeric_limits<std::int64_t>::max();
-  std::vector<std::uint8_t> fits;  ///< For each step considered, whether there was time for it.
+  /// Answers of the clock on the way, each 0 or 1: whether there was time for a step, say.
+  std::vector<std::uint8_t> fits;
 
   friend bool operator==(const Replay&, const Replay&) = default;
 };

@@ -89,9 +89,12 @@ struct Settings {
   /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
   /// nullptr: none. Must outlive the Solve(). Contact problems only.
   const Replay* replay = nullptr;
-  /// Sweeps made even if the budget is spent before them, >= 0. At 0 a budget that is too small for
-  /// anything returns the warm start.
-  int min_sweeps = 1;
+  /// Sweeps made even if the budget is spent before them, because a frame does not fit or the
+  /// thread lost its core: >= 0, or kByBudget. At 0 a budget that is too small for anything returns
+  /// the warm start.
+  int min_sweeps = kByBudget;
+  /// Contact problems with Budget::Time: kLateSweeps; elsewhere 1. See docs/tuning.md, Too late.
+  static constexpr int kByBudget = -1, kLateSweeps = 4;
   /// Threads that may work on one Solve(), the caller included, in [1, 1024]. Results are the same
   /// for any number. Problems too small to gain stay on the caller's.
   int threads = 1;
@@ -100,6 +103,9 @@ struct Settings {
   /// Takes down which thread did what when, on contact problems in blocks (SweepOrder::kColoured);
   /// nullptr: nobody does. Must outlive every Solve(). No result depends on it.
   SpanRecorder* spans = nullptr;
+  /// Of Budget::Time; nullptr: std::chrono::steady_clock. Must outlive every Solve(). Contact
+  /// problems only.
+  const Clock* clock = nullptr;
 
   /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
   double omega = 1;

@@ -101,12 +101,12 @@ bool FrontCholesky<T>::FactorFront(int front) {
 template <class T>
 class FrontCholesky<T>::Stages final : public StagedWork {
  public:
-  explicit Stages(FrontCholesky* factor) : factor_(*factor) {}
+  Stages(FrontCholesky* factor, Deadline* deadline) : factor_(*factor), deadline_(deadline) {}
 
   bool fits() const { return fits_.load(std::memory_order_relaxed); }
   int stages() const override { return static_cast<int>(factor_.stages_.size()); }
   int units(int stage) const override { return factor_.stages_[stage].units; }
-  bool GoOn(int) override { return fits(); }
+  bool GoOn(int) override { return fits() && !Passes(deadline_); }
   SpanLabel label(int stage) const override {
     return {SpanKind::kFactorise, factor_.stages_[stage].front};
   }
@@ -115,6 +115,7 @@ class FrontCholesky<T>::Stages final : public StagedWork {
     const Stage& now = factor_.stages_[stage];
     if (now.step == Step::kSubtrees) {
       for (int k = factor_.subtree_begin_[unit]; k < factor_.subtree_begin_[unit + 1]; ++k) {
+        if (Passes(deadline_)) return;
         if (!factor_.FactorFront(factor_.subtree_fronts_[k])) return Fail();
       }
       return;
@@ -151,17 +152,19 @@ class FrontCholesky<T>::Stages final : public StagedWork {
   void Fail() { fits_.store(false, std::memory_order_relaxed); }
 
   FrontCholesky& factor_;
+  Deadline* deadline_;
   std::atomic<bool> fits_ = true;
 };
 
 template <class T>
-bool FrontCholesky<T>::Factorise(Crew* crew) {
+bool FrontCholesky<T>::Factorise(Crew* crew, Deadline* deadline) {
   if (crew != nullptr && !stages_.empty() && pattern_.flops() > kSerialFlops) {
-    Stages work(this);
+    Stages work(this, deadline);
     crew->Run(&work);
     return work.fits();
   }
   for (int f = 0; f < static_cast<int>(places_.size()); ++f) {
+    if (Passes(deadline)) return true;
     if (!FactorFront(f)) return false;
   }
   return true;
@@ -222,19 +225,19 @@ class FrontCholesky<T>::Gather {
 
 template <class T>
 template <int kNodeSize>
-void FrontCholesky<T>::SolveNodes(std::span<T> x) {
+void FrontCholesky<T>::SolveNodes(std::span<T> x, Deadline* deadline) {
   const Gather<kNodeSize> gather(this);
   const auto fronts = pattern_.fronts();
   const int count = static_cast<int>(fronts.size());
   gather.TakeAll(x);
-  for (int f = 0; f < count; ++f) {
+  for (int f = 0; f < count && !Passes(deadline, f); ++f) {
     const auto front = FrontAt(f);
     gather.Take(fronts[f], front);
     kernels_.forward(front, local_.data());
     gather.GivePivots(fronts[f], front);
     gather.GiveRows(fronts[f], front);
   }
-  for (int f = count - 1; f >= 0; --f) {
+  for (int f = count - 1; f >= 0 && !Passes(deadline, f); --f) {
     const auto front = FrontAt(f);
     gather.Take(fronts[f], front);
     kernels_.backward(front, local_.data());
@@ -244,10 +247,10 @@ void FrontCholesky<T>::SolveNodes(std::span<T> x) {
 }
 
 template <class T>
-void FrontCholesky<T>::Solve(std::span<T> x) {
-  if (pattern_.node_size() == 6) return SolveNodes<6>(x);
-  if (pattern_.node_size() == 1) return SolveNodes<1>(x);
-  SolveNodes<0>(x);
+void FrontCholesky<T>::Solve(std::span<T> x, Deadline* deadline) {
+  if (pattern_.node_size() == 6) return SolveNodes<6>(x, deadline);
+  if (pattern_.node_size() == 1) return SolveNodes<1>(x, deadline);
+  SolveNodes<0>(x, deadline);
 }
 
 template class FrontCholesky<float>;

@@ -9,6 +9,7 @@
 #include "cholesky/factor_pattern.h"
 #include "cholesky/line_allocator.h"
 #include "runtime/crew.h"
+#include "runtime/deadline.h"
 #include "simd/fronts/front_kernels.h"
 #include "simd/target.h"
 
@@ -40,11 +41,12 @@ class FrontCholesky {
 
   /// False if the matrix is not positive definite: if rounding leaves of a pivot no more than that
   /// of its diagonal entry, or if it is not finite. @p crew: has to be announced in Analyse().
-  [[nodiscard]] bool Factorise(Crew* crew = nullptr);
+  /// @p deadline: where it passes, nothing comes of it.
+  [[nodiscard]] bool Factorise(Crew* crew = nullptr, Deadline* deadline = nullptr);
 
   /// x := matrix^-1 x, node_size numbers for each node in the order of Analyse().
   /// @pre Factorise() succeeded
-  void Solve(std::span<T> x);
+  void Solve(std::span<T> x, Deadline* deadline = nullptr);
 
  private:
   using Front = FactorPattern::Front;
@@ -112,7 +114,7 @@ class FrontCholesky {
   template <int kNodeSize>
   class Gather;
   template <int kNodeSize>
-  void SolveNodes(std::span<T> x);
+  void SolveNodes(std::span<T> x, Deadline* deadline);
 
   const simd::FrontKernels<T>& kernels_;
   FactorPattern pattern_;

@@ -25,6 +25,9 @@ int UnseenAfter(int sweeps) {
 /// those of states on the way, not of the last one.
 constexpr double kNearTolerance = 2;
 
+/// What looking at a state and keeping a copy costs, in sweeps.
+constexpr double kKeepingSweeps = 1;
+
 double Largest(const Residual& residual) { return std::max(residual.max, residual.max_angular); }
 
 }  // namespace
@@ -45,7 +48,6 @@ void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, Bl
   Begin();
   GuardStart();
   while (Active()) Leg();
-  meter_->Begin();
   Finish();
   if (Learns()) Learn();
   FillReport(report);
@@ -115,10 +117,10 @@ bool BlockCycle::Active() const {
   return std::any_of(made_.begin(), made_.end(), [](const GroupSweeps& g) { return g.active; });
 }
 
-double BlockCycle::ActiveRows() const {
+double BlockCycle::RowsOf(std::span<const GroupSweeps> groups) const {
   double rows = 0;
-  for (size_t g = 0; g < made_.size(); ++g) {
-    if (made_[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);
   }
   return rows;
 }
@@ -178,6 +180,9 @@ void BlockCycle::ReadErrors(std::vector<Residual>* residuals) const {
 }
 
 void BlockCycle::Leg() {
+  // what came after the last leg may have taken what was left
+  if (legs_ > 0 && stepped_islands_.empty() && meter_->Late(0)) StopLate();
+  if (!Active()) return;
   const int before = SweepsMade();
   const bool more = weighs_ && before >= settings_->max_sweeps;
   const int end = more ? before + settings_->k_gs
@@ -269,11 +274,19 @@ void BlockCycle::Judge(bool seen) {
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Open(i)) continue;
     const int sweeps = made_[plan.islands()[i].group].sweeps;
-    if (meter_->spent() && sweeps >= settings_->min_sweeps) {
+    if (meter_->spent() && sweeps >= LeastSweeps(*settings_)) {
       Stop(i, meter_->stop_reason());
     } else if (sweeps >= MostSweeps(i)) {
       Stop(i, StopReason::kSweepLimit);
     }
+  }
+  CloseGroups();
+}
+
+void BlockCycle::StopLate() {
+  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+    const int sweeps = made_[frame_->plan().islands()[i].group].sweeps;
+    if (Open(i) && sweeps >= LeastSweeps(*settings_)) Stop(i, meter_->stop_reason());
   }
   CloseGroups();
 }
@@ -304,7 +317,7 @@ void BlockCycle::KeepBest() {
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Done(i)) Choose(i);
   }
-  if (!Active()) return;
+  if (!Active() || meter_->Late(kKeepingSweeps * RowsOf(chosen_))) return;
   sweeps_->MeasureFree(chosen_);
   ReadErrors(&after_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {

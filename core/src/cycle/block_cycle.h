@@ -73,6 +73,8 @@ class BlockCycle {
   /// Reads what the last sweep of the groups saw.
   void See(std::span<const GroupSweeps> groups);
   void Judge(bool seen);
+  /// Stops islands whose sweeps that are made in any case are done.
+  void StopLate();
   void JudgeNear();
   void Stop(int island, StopReason reason);
   /// Keeps the state of islands that have stopped, where their lanes go on.
@@ -81,7 +83,8 @@ class BlockCycle {
   /// Neither done, nor to be compared with itself first.
   bool Open(int island) const { return !Done(island) && !states_[island].stepped; }
   bool Active() const;
-  double ActiveRows() const;  ///< of the groups that are swept
+  double ActiveRows() const { return RowsOf(made_); }        ///< of the groups that are swept
+  double RowsOf(std::span<const GroupSweeps> groups) const;  ///< of the active ones
   int SweepsMade() const;
   /// Of an island, as far as steps were taken there.
   int MostSweeps(int island) const;
@@ -113,6 +116,10 @@ class BlockCycle {
   double GainOfStep(int island) const;
   double GainAlone(int island) const;
   void TryWithoutSteps(int sweeps);
+  /// There is no time for that: what is no better than before the step is undone.
+  void CompareWithBefore();
+  /// Sets time aside to judge the steps on the islands that are chosen.
+  void SetJudgingAside();
   /// Work of the steps that are to be taken after a leg, and of the sweeps that they need.
   struct PlannedSteps {
     double steps = 0, sweeps = 0;

@@ -29,6 +29,8 @@ constexpr double kSlack = 1.5;
 constexpr double kNear = 10;
 /// Error that a step meets at most where there was none in the last frame [m/s] or [rad/s].
 constexpr double kMostThrown = 1;
+/// What measuring a step and undoing it costs, in sweeps.
+constexpr double kJudgingSweeps = 2;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
@@ -82,7 +84,9 @@ NoStep BlockCycle::PlanGraph(int g, std::span<const int> islands, const PlannedS
   const auto analysis = steps_.PriceOfAnalysis(g, islands);
   if (analysis.whole > 0) {
     // where the step does not fit any more after it, it will in the next frame
-    if (!meter_->Fits(planned.steps + analysis.whole, planned.sweeps)) return NoStep::kTooDear;
+    if (!meter_->FitsAnalysis(analysis.whole, planned.steps, planned.sweeps)) {
+      return NoStep::kTooDear;
+    }
     if (!pays(guess + analysis.of_step)) return NoStep::kSweepsFaster;
     steps_.Analyse(g, islands);
   }
@@ -225,6 +229,7 @@ void BlockCycle::TakeSteps() {
   for (int i : stepped_islands_) Choose(i);
   MeasureChosen(&before_);
   merits_before_.Find(frame_, chosen_);
+  SetJudgingAside();
 
   // islands of a group follow each other
   const Plan& plan = frame_->plan();
@@ -244,16 +249,23 @@ void BlockCycle::TakeSteps() {
   }
   std::erase_if(stepped_islands_, [this](int i) {
     if (states_[i].stepped) return false;
+    if (steps_.given_up(i)) {
+      states_[i].too_late = true;
+      islands_[i].no_step = NoStep::kTooDear;
+      return true;
+    }
     steps_.Judge(i, false);
     ++islands_[i].steps_restored;
     return true;
   });
+  if (stepped_islands_.empty()) meter_->SetAside(0);
 }
 
 void BlockCycle::KeepBetterSteps(int sweeps) {
   if (stepped_islands_.empty()) return;
   ChooseNone();
   for (int i : stepped_islands_) Choose(i);
+  meter_->SetAside(0);
   MeasureChosen(&with_step_);
   FindHarm();
   ChooseNone();
@@ -264,7 +276,11 @@ void BlockCycle::KeepBetterSteps(int sweeps) {
     Choose(i);
     sure = false;
   }
-  if (!sure) TryWithoutSteps(sweeps);
+  if (!sure && meter_->out_of_time()) {
+    CompareWithBefore();
+  } else if (!sure) {
+    TryWithoutSteps(sweeps);
+  }
 
   for (int i : stepped_islands_) {
     const bool accepted = !states_[i].better_alone;
@@ -309,6 +325,18 @@ void BlockCycle::FindHarm() {
   }
 }
 
+void BlockCycle::SetJudgingAside() { meter_->SetAside(kJudgingSweeps * RowsOf(chosen_)); }
+
+void BlockCycle::CompareWithBefore() {
+  for (int i : stepped_islands_) {
+    if (!Chosen(i)) continue;
+    const StepTrial trial{
+        .with_step = with_step_[i].energy, .alone = before_[i].energy, .closer = GainOfStep(i) > 0};
+    states_[i].better_alone = states_[i].harmful || (!IsSure(i) && trial.is_better_alone());
+    if (states_[i].better_alone) before_steps_.Restore(frame_->plan(), i, &frame_->blocks());
+  }
+}
+
 void BlockCycle::TryWithoutSteps(int sweeps) {
   // the same number of sweeps from before the steps, as far as the budget goes
   const Plan& plan = frame_->plan();
@@ -322,7 +350,9 @@ void BlockCycle::TryWithoutSteps(int sweeps) {
   for (size_t g = 0; g < chosen_.size(); ++g) {
     chosen_[g].sweeps = std::max(0, made_[g].sweeps - sweeps);
   }
+  SetJudgingAside();
   if (sweeps_->Sweep(sweeps, chosen_) && sweeps > 0) See(chosen_);
+  meter_->SetAside(0);
   MeasureChosen(&alone_);
   alone_merits_.Find(frame_, chosen_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {

@@ -59,6 +59,7 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
   islands_.assign(plan.islands().size(), {});
   islands_now_.assign(plan.islands().size(), {});
   work_.assign(plan.islands().size(), 0);
+  given_up_.assign(plan.islands().size(), 0);
   limits_.assign(plan.islands().size(), settings.k_sm);
   if (float_step_ == nullptr) {
     float_step_ = std::make_unique<BlockStep<float>>(frame->target());
@@ -272,21 +273,30 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
                        .condense_joints = own.condense_joints,
                        .factorisations = limits_[i]};
   }
+  // the time may be up since the step was planned, or while it is taken
+  const bool too_late = meter_->out_of_time();
+  bool given_up = too_late || meter_->ReplaysGivingUp();
   BlockSystem<T>& system = SystemOf<T>(group);
   meter_->Begin();
   const SpanClock clock(settings_->spans, 0, {SpanKind::kStep, group});
-  const int made = step->Take(frame_->plan(), group, settings_->refinements, &system, crew_,
-                              &frame_->blocks(), islands_now_);
-  const double price = PriceOf<T>(group, made);
-  meter_->Charge(WorkKind::kStep, price);
-  system.CountStep();
+  int made = 1;
+  if (!given_up) {
+    Deadline deadline = meter_->StepDeadline();
+    made = step->Take(frame_->plan(), group, settings_->refinements, &system, crew_,
+                      &frame_->blocks(), islands_now_, &deadline);
+    given_up = deadline.passed();
+  }
+  const double price = too_late ? 0 : PriceOf<T>(group, given_up ? 1 : made);
+  if (!too_late) meter_->ChargeStep(price, given_up);
+  if (!given_up) system.CountStep();
   double rows = 0;
   for (int i : islands) rows += chosen(i) ? frame_->plan().islands()[i].rows : 0;
   for (int i : islands) {
     if (chosen(i)) {
       islands_[i] = islands_now_[i];
-      MemoryOf(i)->SawJoints(islands_[i].result);
+      if (!given_up) MemoryOf(i)->SawJoints(islands_[i].result);
       work_[i] = price * frame_->plan().islands()[i].rows / rows;
+      given_up_[i] = given_up ? 1 : 0;
     }
     islands_now_[i].taken = false;
   }

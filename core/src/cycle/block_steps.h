@@ -59,6 +59,8 @@ class BlockSteps {
   int limit(int island) const { return limits_[island]; }
   /// Takes a step on some islands of a group.
   void Take(int group, std::span<const int> islands);
+  /// The time was up before it was done; nothing changed.
+  bool given_up(int island) const { return given_up_[island] != 0; }
   /// What came of the last one; where it did not succeed, nothing changed.
   const StepResult& result(int island) const { return islands_[island].result; }
   /// What was charged for it: its share of the group's, by rows.
@@ -119,7 +121,8 @@ class BlockSteps {
   std::vector<std::uint64_t> keys_;  ///< by island
   std::vector<IslandMemory*> memory_of_island_;
   std::vector<IslandStep> islands_, islands_now_;
-  std::vector<double> work_;  ///< by island
+  std::vector<double> work_;    ///< by island
+  std::vector<char> given_up_;  ///< likewise
   std::unique_ptr<BlockStep<float>> float_step_;
   std::unique_ptr<BlockStep<double>> double_step_;
 };

@@ -261,10 +261,11 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
 Status Validate(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
   const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay,
-               min_sweeps, threads, executor, spans, omega, lifted_friction, acceleration,
+               min_sweeps, threads, executor, spans, clock, omega, lifted_friction, acceleration,
                step_policy, proximal, proximal_joints, refinements, active_tolerance] = settings;
   static_cast<void>(executor);  // any will do, and any of these
   static_cast<void>(spans);
+  static_cast<void>(clock);
   const bool replays = replay == nullptr || replay->work >= 0;
   const bool enums =
       Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
@@ -273,7 +274,7 @@ Status Validate(const Settings& settings) {
       Inside(static_cast<int>(acceleration), 0, 1) &&
       Inside(static_cast<int>(step_policy), 0, static_cast<int>(StepPolicy::kWeighed));
   const bool counts = k_gs >= 1 && Inside(k_sm, 0, kMostFactorisations) && max_sweeps >= 0 &&
-                      min_sweeps >= 0 && Inside(threads, 1, kMostThreads) &&
+                      min_sweeps >= Settings::kByBudget && Inside(threads, 1, kMostThreads) &&
                       Inside(refinements, 1, kMostSolves);
   const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
                      omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&

@@ -98,6 +98,7 @@ void Recorder::End(const Settings& settings, const Report& report) {
   recording_.settings = settings;
   recording_.settings.replay = nullptr;
   recording_.settings.executor = nullptr;
+  recording_.settings.clock = nullptr;
   recording_.replay.reset();
   if (settings.budget.kind() == Budget::Kind::kTime) recording_.replay = report.replay;
 

@@ -186,11 +186,12 @@ template <class Io>
 void Visit(Settings& settings, Io& io) {
   // names every field: a new one does not compile until it is part of the file
   auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay, min_sweeps,
-         threads, executor, spans, omega, lifted_friction, acceleration, step_policy, proximal,
-         proximal_joints, refinements, active_tolerance] = settings;
+         threads, executor, spans, clock, omega, lifted_friction, acceleration, step_policy,
+         proximal, proximal_joints, refinements, active_tolerance] = settings;
   static_cast<void>(replay);  // has a section of its own
   static_cast<void>(executor);
   static_cast<void>(spans);
+  static_cast<void>(clock);
   io.Enum(method, Method::kInteriorPoint);
   io.Enum(order, SweepOrder::kColoured);
   io.I32(k_gs);

@@ -66,7 +66,7 @@ void IslandCycle::Advance(BudgetMeter* meter) {
 }
 
 bool IslandCycle::Spent(const BudgetMeter& meter) const {
-  return meter.spent() && at_.sweeps >= settings_.min_sweeps;
+  return meter.spent() && at_.sweeps >= LeastSweeps(settings_);
 }
 
 int IslandCycle::SweepsOfLeg() const {

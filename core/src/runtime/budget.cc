@@ -14,30 +14,44 @@ constexpr double kStepMargin = 1.25;
 constexpr double kPriceMemory = 0.05;
 /// The same for steps, of which there are few.
 constexpr double kStepMemory = 0.2;
-/// The same for what comes after the iteration where it took longer than thought: what is not set
-/// aside for it is overrun.
-constexpr double kFinishMemory = 0.5;
-/// What a step that is tried to learn its price may take beyond the budget [ns], as far as known;
-/// and no more than the budget once again.
+/// What a step that is tried to learn its price, and cannot be given up, may take beyond the budget
+/// [ns], as far as known; and no more than the budget once again.
 constexpr double kMostExploration = 1e5;
+/// What comes after the iteration, and what cannot be given up, is overrun if too little is set
+/// aside for it: such a price rises at once, up to so many times itself, and falls slowly. What was
+/// interrupted does not say how far.
+constexpr double kMostRise = 2, kInterruptedRise = 1.25, kFinishMemory = 0.02;
+/// No work is cheaper than that, whatever a clock says that stands still [ns].
+constexpr double kLeastPrice = 0.05;
 /// Frames from one trial to the next, at first and at most.
 constexpr int kFirstPatience = 8, kLongestPatience = 256;
+/// Room for what the clock is asked in a frame: memory is not to be asked for each time that it is
+/// asked more often than before.
+constexpr int kUsualAnswers = 1024;
 /// A measurement above so many times the price was interrupted by something else.
 constexpr double kMostSurprise = 4;
 
-double Nanoseconds(std::chrono::steady_clock::duration time) {
-  return std::chrono::duration<double, std::nano>(time).count();
-}
+double ToDouble(std::chrono::nanoseconds time) { return static_cast<double>(time.count()); }
 
 void Learn(double measured, double memory, double* price) {
-  *price += memory * (std::min(measured, kMostSurprise * *price) - *price);
+  *price += memory * (std::clamp(measured, kLeastPrice, kMostSurprise * *price) - *price);
+}
+
+void LearnMost(double measured, double memory, double* price) {
+  if (measured > kMostSurprise * *price) {
+    *price *= kInterruptedRise;
+  } else if (measured > *price) {
+    *price = std::min(measured, kMostRise * *price);
+  } else {
+    Learn(measured, memory, price);
+  }
 }
 
 }  // namespace
 
-BudgetMeter::BudgetMeter(Budget budget, double rows, WorkPrices* prices)
-    : budget_(budget), rows_(rows), prices_(prices) {
-  if (budget_.kind() == Budget::Kind::kTime) start_ = last_ = Clock::now();
+BudgetMeter::BudgetMeter(Budget budget, double rows, WorkPrices* prices, const Clock* clock)
+    : budget_(budget), rows_(rows), prices_(prices), clock_(clock) {
+  if (budget_.kind() == Budget::Kind::kTime) start_ = ReadClock(clock_);
   Charge(WorkKind::kSweep, 0);
 }
 
@@ -49,11 +63,18 @@ BudgetMeter::BudgetMeter(const Replay& replay, WorkPrices* prices)
 void BudgetMeter::Record(Replay* replay) {
   replay->fits.clear();
   replay->work = spent_ ? 0 : Replay{}.work;
-  if (budget_.kind() == Budget::Kind::kTime) record_ = replay;
+  if (budget_.kind() != Budget::Kind::kTime) return;
+  record_ = replay;
+  replay->fits.reserve(kUsualAnswers);
 }
 
 void BudgetMeter::Begin() {
-  if (budget_.kind() == Budget::Kind::kTime) last_ = Clock::now();
+  if (budget_.kind() == Budget::Kind::kTime) last_ = Now();
+}
+
+BudgetMeter::Nanoseconds BudgetMeter::Now() const {
+  latest_ = std::max(latest_, ReadClock(clock_) - start_);
+  return latest_;
 }
 
 void BudgetMeter::Charge(WorkKind kind, double units) {
@@ -68,11 +89,13 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
     case Budget::Kind::kTime:
       break;
   }
-  const Clock::time_point now = Clock::now();
+  const Nanoseconds now = Now();
   if (units > 0) {
-    const double ns = Nanoseconds(now - last_) / units;
+    const double ns = ToDouble(now - last_) / units;
     if (kind == WorkKind::kSweep) {
       Learn(ns, kPriceMemory, &prices_->sweep_ns);
+    } else if (kind == WorkKind::kAnalysis) {
+      LearnMost(ns, kStepMemory, &prices_->analysis_ns);
     } else if (kind == WorkKind::kStep) {
       steps_predicted_ += units * prices_->step_ns;
       steps_time_ += now - last_;
@@ -83,6 +106,20 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
   if (spent_ || TimeLeft(now) > 0) return;
   spent_ = true;
   if (record_ != nullptr) record_->work = work();
+}
+
+void BudgetMeter::ChargeStep(double units, bool given_up) {
+  if (!given_up || budget_.kind() != Budget::Kind::kTime) {
+    Charge(WorkKind::kStep, units);
+    if (budget_.kind() == Budget::Kind::kTime) Answer(true);
+    return;
+  }
+  // it takes that long at least
+  const double ns = ToDouble(Now() - last_) / units;
+  if (ns > prices_->step_ns) Learn(ns, 1, &prices_->step_ns);
+  stepped_ = true;
+  Charge(WorkKind::kPartOfStep, units);
+  Answer(false);
 }
 
 void BudgetMeter::LearnStep(double ns) {
@@ -101,12 +138,40 @@ void BudgetMeter::ChargeFinish() {
     prices_->frames_to_refuse = explores_ ? longer : kFirstPatience;
   }
   if (budget_.kind() != Budget::Kind::kTime || rows_ <= 0) return;
-  const double ns = Nanoseconds(Clock::now() - last_) / rows_;
-  Learn(ns, ns > prices_->finish_ns ? kFinishMemory : kPriceMemory, &prices_->finish_ns);
+  const double ns = ToDouble(Now() - last_) / rows_;
+  LearnMost(ns, kFinishMemory, &prices_->finish_ns);
 }
 
-double BudgetMeter::TimeLeft(Clock::time_point now) const {
-  return Nanoseconds(budget_.time() - (now - start_)) - rows_ * prices_->finish_ns;
+double BudgetMeter::TimeLeft(Nanoseconds now) const {
+  const double sweep_units = aside_units_ + std::min(rows_, prices_->unseen_rows);
+  return ToDouble(budget_.time()) - ToDouble(now) - rows_ * prices_->finish_ns -
+         sweep_units * prices_->sweep_ns;
+}
+
+void BudgetMeter::Answer(bool answer) {
+  if (record_ != nullptr) record_->fits.push_back(answer ? 1 : 0);
+}
+
+bool BudgetMeter::Late(double sweep_units) {
+  if (replayed_ != nullptr) {
+    return answers_ < replayed_->fits.size() && replayed_->fits[answers_++] != 0;
+  }
+  if (budget_.kind() != Budget::Kind::kTime) return false;
+  const bool late = TimeLeft(Now()) <= sweep_units * prices_->sweep_ns;
+  Answer(late);
+  return late;
+}
+
+Deadline BudgetMeter::StepDeadline() const {
+  if (budget_.kind() != Budget::Kind::kTime) return {};
+  const Nanoseconds now = Now();
+  const Nanoseconds left(std::llround(std::max(0.0, TimeLeft(now))));
+  return {clock_, start_ + now + left};
+}
+
+bool BudgetMeter::ReplaysGivingUp() {
+  if (replayed_ == nullptr) return false;
+  return answers_ >= replayed_->fits.size() || replayed_->fits[answers_++] == 0;
 }
 
 double BudgetMeter::work_left() const {
@@ -114,49 +179,57 @@ double BudgetMeter::work_left() const {
   return static_cast<double>(budget_.work()) - work_;
 }
 
-bool BudgetMeter::Predict(double step_units, double sweep_units) const {
+bool BudgetMeter::Predict(const Plans& plans) const {
   switch (budget_.kind()) {
     case Budget::Kind::kUnlimited:
       return true;
     case Budget::Kind::kWork:
-      return work_ + step_units + sweep_units <= static_cast<double>(budget_.work());
+      return work_ + (plans.step_units + plans.analysis_units) + plans.sweep_units <=
+             static_cast<double>(budget_.work());
     case Budget::Kind::kTime:
       break;
   }
   // sweeps end where the budget does
-  const double needed =
-      kStepMargin * step_units * prices_->step_ns + sweep_units * prices_->sweep_ns;
-  return needed <= TimeLeft(Clock::now());
+  const double steps =
+      plans.step_units * prices_->step_ns + plans.analysis_units * prices_->analysis_ns;
+  return kStepMargin * steps + plans.sweep_units * prices_->sweep_ns <= TimeLeft(Now());
 }
 
 bool BudgetMeter::Explores(double step_units, double sweep_units) const {
   if (budget_.kind() != Budget::Kind::kTime || step_units <= 0 || stepped_) return false;
   if (prices_->frames_refused < prices_->frames_to_refuse) return false;
-  const double left = TimeLeft(Clock::now()) - sweep_units * prices_->sweep_ns;
+  const double left = TimeLeft(Now()) - sweep_units * prices_->sweep_ns;
   // the first one was slowed down by cold caches
   const double slowest = prices_->step_known ? std::min(prices_->step_ns, prices_->most_step_ns)
                                              : prices_->most_step_ns;
-  const double most = std::min(kMostExploration, Nanoseconds(budget_.time()));
+  const double most = std::min(kMostExploration, ToDouble(budget_.time()));
   return kStepMargin * step_units * prices_->least_step_ns <= left &&
-         step_units * slowest - left <= most;
+         (prices_->can_give_up_steps || step_units * slowest - left <= most);
 }
 
 bool BudgetMeter::Fits(double step_units, double sweep_units) {
   if (replayed_ != nullptr) {
     return answers_ < replayed_->fits.size() && replayed_->fits[answers_++] != 0;
   }
-  bool fits = Predict(step_units, sweep_units);
+  bool fits = Predict({.step_units = step_units, .sweep_units = sweep_units});
   if (!fits && step_units > 0) {
     fits = Explores(step_units, sweep_units);
     (fits ? explores_ : refused_) = true;
   }
-  if (record_ != nullptr) record_->fits.push_back(fits ? 1 : 0);
+  Answer(fits);
+  return fits;
+}
+
+bool BudgetMeter::FitsAnalysis(double analysis_units, double step_units, double sweep_units) {
+  if (replayed_ != nullptr) return Fits(0, 0);
+  const bool fits = Predict({analysis_units, step_units, sweep_units});
+  if (!fits) refused_ = true;
+  Answer(fits);
   return fits;
 }
 
 StopReason BudgetMeter::stop_reason() const {
-  const bool timed = budget_.kind() == Budget::Kind::kTime || replayed_ != nullptr;
-  return timed ? StopReason::kTimeSpent : StopReason::kWorkSpent;
+  return timed() ? StopReason::kTimeSpent : StopReason::kWorkSpent;
 }
 
 std::chrono::nanoseconds BudgetMeter::steps_predicted() const {
@@ -165,7 +238,7 @@ std::chrono::nanoseconds BudgetMeter::steps_predicted() const {
 
 std::chrono::nanoseconds BudgetMeter::elapsed() const {
   if (budget_.kind() != Budget::Kind::kTime) return std::chrono::nanoseconds(0);
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start_);
+  return Now();
 }
 
 }  // namespace cairn

@@ -28,22 +28,38 @@ enum Phase : char {
 
 template <class T>
 int BlockStep<T>::Take(const Plan& plan, int group, int refinements, BlockSystem<T>* system,
-                       Crew* crew, BlockData* blocks, std::span<IslandStep> islands) {
+                       Crew* crew, BlockData* blocks, std::span<IslandStep> islands,
+                       Deadline* deadline) {
   const simd::FlushDenormals flush;
   plan_ = &plan;
   group_ = &plan.groups()[group];
   blocks_ = blocks;
   system_ = system;
   islands_ = islands;
+  deadline_ = deadline;
+  const int made = Find(refinements, crew);
+  if (deadline_ != nullptr && deadline_->passed()) {
+    // what was left undone on the way is of no use
+    ForIslands([this](int island) { islands_[island].result = {}; });
+  } else {
+    deadline_ = nullptr;  // from here on it is done to the end
+    Write();
+  }
+  return made;
+}
+
+template <class T>
+int BlockStep<T>::Find(int refinements, Crew* crew) {
   Read();
   Predict();
 
   // those from whose sets rows had to be removed, again; others are done when they are refined
   int made = 0;
-  for (; CloseAfter(made), Any(kOpen); ++made) {
+  for (; CloseAfter(made), Any(kOpen) && !Passes(deadline_); ++made) {
     WorkOn(kOpen);
     ForBlocks(laws_.find_weights);
-    const bool factorised = system->Factorise(plan, *group_, *blocks, weights_, crew);
+    const bool factorised =
+        system_->Factorise(*plan_, *group_, *blocks_, weights_, crew, deadline_);
     ForIslands([&](int island) {
       if (phases_[island] != kOpen) return;
       ++islands_[island].result.factorisations;
@@ -56,10 +72,10 @@ int BlockStep<T>::Take(const Plan& plan, int group, int refinements, BlockSystem
     Remove();
     RefineWhileSetHolds(refinements);
   }
+  if (Passes(deadline_)) return made;
   if (bounded_) ForBlocks(laws_.project);
   FindJointSpeeds(&StepResult::solved_joint_speed);
   if (CondenseJoints(crew)) ++made;
-  Write();
   return made;
 }
 
@@ -146,7 +162,7 @@ void BlockStep<T>::CopyTaken(const Lines& from, Lines* to) {
 template <class T>
 template <class Function>
 void BlockStep<T>::ForBlocks(const Function& function) {
-  for (int b = 0; b < group_->blocks; ++b) function(LawOf(b));
+  for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) function(LawOf(b));
 }
 
 template <class T>
@@ -218,7 +234,7 @@ template <class T>
 void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v) {
   std::fill(v->begin(), v->end(), T{0});
   LineT of_pair[simd::kPairLines];
-  for (int b = 0; b < group_->blocks; ++b) {
+  for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
     const simd::PairLaw<T> law = LawOf(b);
     const simd::PairBlock& block = law.block;
     products_.multiply_transposed(
@@ -237,7 +253,7 @@ void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T
 template <class T>
 void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
   LineT of_pair[simd::kPairLines] = {};
-  for (int b = 0; b < group_->blocks; ++b) {
+  for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
     const simd::PairLaw<T> law = LawOf(b);
     const simd::PairBlock& block = law.block;
     const auto get = [&](int slot, int lane, LineT* lines) {
@@ -267,7 +283,7 @@ void BlockStep<T>::Refine() {
   FindSlack();
   ForBlocks(laws_.weigh);
   MultiplyTransposed(product_, &du_);
-  system_->Solve(du_);
+  system_->Solve(du_, deadline_);
   Multiply(du_, &product_);
   ForBlocks(laws_.advance);
 }
@@ -277,7 +293,7 @@ void BlockStep<T>::Refine() {
 /// what they contradict each other. The solve after which a row leaves its bounds is taken back.
 template <class T>
 void BlockStep<T>::RefineWhileSetHolds(int refinements) {
-  for (int k = 1; k < refinements && Any(kRefined); ++k) {
+  for (int k = 1; k < refinements && Any(kRefined) && !Passes(deadline_); ++k) {
     WorkOn(kRefined);
     ForBlocks(laws_.find_weights);
     before_ = x_;
@@ -325,7 +341,7 @@ template <class T>
 void BlockStep<T>::FindSmallest() {
   MultiplyWeighted(&wanted_);
   ForBlocks(laws_.clear_weighted);
-  for (int k = 0; k < kCondensingSolves; ++k) {
+  for (int k = 0; k < kCondensingSolves && !Passes(deadline_); ++k) {
     MultiplyWeighted(&u_);
     for (size_t i = 0; i < u_.size(); ++i) u_[i] = wanted_[i] - u_[i];
     Multiply(u_, &slack_);
@@ -336,7 +352,7 @@ void BlockStep<T>::FindSmallest() {
       }
     }
     MultiplyTransposed(product_, &du_);
-    system_->Solve(du_);
+    system_->Solve(du_, deadline_);
     Multiply(du_, &product_);
     for (size_t i = 0; i < x_.size(); ++i) {
       for (int l = 0; l < kLanes; ++l) {
@@ -359,7 +375,9 @@ bool BlockStep<T>::CondenseJoints(Crew* crew) {
     WorkOn(kOpen);
     ForBlocks(laws_.find_joint_weights);
     before_ = x_;
-    if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew)) FindSmallest();
+    if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew, deadline_)) {
+      FindSmallest();
+    }
   }
   FindJointSpeeds(&StepResult::joint_speed);
   if (!any) return false;

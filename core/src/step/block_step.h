@@ -32,14 +32,16 @@ class BlockStep {
 
   /// @p refinements: StepSettings::refinements. @p islands: one for each of the plan. An island
   /// whose system could not be factorised stays as it is. Returns how many factorisations were made
-  /// in all.
+  /// in all. @p deadline: where it passes, the step is given up, and nothing changes.
   /// @pre system->IsPreparedFor() this group
   int Take(const Plan& plan, int group, int refinements, BlockSystem<T>* system, Crew* crew,
-           BlockData* blocks, std::span<IslandStep> islands);
+           BlockData* blocks, std::span<IslandStep> islands, Deadline* deadline = nullptr);
 
  private:
   using LineT = simd::LineOf<T>;
 
+  /// All but Write(). Returns how many factorisations were made.
+  int Find(int refinements, Crew* crew);
   void Read();
   void FindTolerances();
   void Predict();
@@ -85,6 +87,7 @@ class BlockStep {
   BlockData* blocks_ = nullptr;
   BlockSystem<T>* system_ = nullptr;
   std::span<IslandStep> islands_;
+  Deadline* deadline_ = nullptr;
   bool bounded_ = false;                      ///< some row of the group has bounds
   std::vector<char> phases_, phases_before_;  ///< by island
 

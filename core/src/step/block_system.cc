@@ -122,13 +122,14 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
 
 template <class T>
 bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
-                               std::span<const simd::LineOf<T>> weights, Crew* crew) {
+                               std::span<const simd::LineOf<T>> weights, Crew* crew,
+                               Deadline* deadline) {
   cholesky_.SetZero();
   for (int node = 0; node < nodes(); ++node) {
     for (int k = 0; k < 6; ++k) cholesky_.diagonal(node)[7 * k] = 1;
   }
   simd::LineOf<T> gram[simd::kGramLines];
-  for (int b = 0; b < group.blocks; ++b) {
+  for (int b = 0; b < group.blocks && !Passes(deadline, b); ++b) {
     const simd::PairBlock& block = plan.blocks()[group.first_block + b];
     const auto x = static_cast<size_t>(block.x - static_cast<std::uint32_t>(group.first_x));
     products_.weighted_gram(block, blocks.data.data() + block.data, weights.data() + x, gram);
@@ -137,7 +138,7 @@ bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const Block
     }
   }
   const SpanClock clock(crew != nullptr ? crew->recorder() : nullptr, 0, {SpanKind::kFactorise});
-  return cholesky_.Factorise(crew);
+  return cholesky_.Factorise(crew, deadline);
 }
 
 template <class T>

@@ -52,12 +52,14 @@ class BlockSystem {
   }
 
   /// Assembles and factorises. @p weights: one line for each x line of the group; rows of weight 0
-  /// are left out. False if rounding made H indefinite.
+  /// are left out. False if rounding made H indefinite. @p deadline: where it passes, nothing comes
+  /// of it, nor of Solve().
   /// @pre IsPreparedFor() this group of this plan
   [[nodiscard]] bool Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
-                               std::span<const simd::LineOf<T>> weights, Crew* crew);
+                               std::span<const simd::LineOf<T>> weights, Crew* crew,
+                               Deadline* deadline = nullptr);
   /// Solves H v = rhs in place, six numbers a node.
-  void Solve(std::span<T> rhs) { cholesky_.Solve(rhs); }
+  void Solve(std::span<T> rhs, Deadline* deadline = nullptr) { cholesky_.Solve(rhs, deadline); }
 
  private:
   bool IsFor(int plan_number, int group) const {

@@ -59,7 +59,7 @@ class BlockSweeps::Pass final : public StagedWork {
   bool GoOn(int stage) override {
     ChargeLast();
     const int sweeps = made_ + stage / stages_of_sweep();
-    const bool must = kind_ != Kind::kSweeps || sweeps < sweeps_.settings_.min_sweeps;
+    const bool must = kind_ != Kind::kSweeps || sweeps < LeastSweeps(sweeps_.settings_);
     if (sweeps_.meter_->spent() && !must) return false;
     const double left = must ? kInfinity : sweeps_.meter_->work_left();
     PlanStage(StageOf(stage), left);

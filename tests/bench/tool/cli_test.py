@@ -333,7 +333,7 @@ class RunTest(CairnTest):
         self.assertNotEqual(parts["facts"], whole["facts"])
 
     def test_fitted_iterations_leave_the_default_where_there_is_time(self):
-        scene = self.run_json(*SMALL, "--frames", "40", "--budget", "5ms", "--iterations", "fit",
+        scene = self.run_json(*SMALL, "--frames", "40", "--budget", "20ms", "--iterations", "fit",
                               "--solver", "bullet-si")["scenes"][0]
         self.assertGreater(scene["solvers"][0]["summary"]["iterations_mean"], 50)
 

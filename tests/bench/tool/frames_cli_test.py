@@ -51,6 +51,42 @@ class PartsTest(unittest.TestCase):
             self.assertNotEqual(result.stderr, "", words)
 
 
+class DeadlinesTest(unittest.TestCase):
+    def rows(self, *arguments):
+        result = frames("deadlines", "--warm-up", "2", "--frames", "5", "--seconds", "0.2", *arguments)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        lines = [[cell.strip() for cell in line.strip("|").split("|")]
+                 for line in result.stdout.splitlines() if line.startswith("|")]
+        return [dict(zip(lines[0], line)) for line in lines[2:]], result.stdout
+
+    def test_has_a_row_for_each_world_and_budget(self):
+        rows, said = self.rows("--scene", "tower:3", "--worlds", "3", "--budget", "1", "--budget", "50")
+        self.assertEqual([(row["world"], row["budget ms"]) for row in rows],
+                         [("tower 3", "1"), ("tower 3", "50"), ("random worlds", "1"),
+                          ("random worlds", "50")])
+        self.assertIn("min_sweeps 4", said)
+        self.assertIn("the clock of the budgets: wall", said)
+        self.assertEqual(rows[1]["substeps"], "5")
+        # p50 of three boxes in 50 ms
+        self.assertLess(float(rows[1]["CPU over us"].split(" / ")[0]), -10000)
+
+    def test_counts_substeps_that_cannot_fit(self):
+        rows, said = self.rows("--scene", "tower:3", "--worlds", "0", "--budget", "0", "--clock", "cpu",
+                               "--min-sweeps", "2")
+        self.assertIn("CPU time of the thread", said)
+        self.assertEqual(rows[0]["too late %"], "100.0")
+        self.assertEqual(rows[0]["sweeps p50"], "2")
+        self.assertEqual(rows[0]["CPU over us"], "-")
+        self.assertGreater(float(rows[0]["by us"]), 0)
+
+    def test_what_cannot_be_is_refused(self):
+        for words in (["--scene", "sandcastle"], ["--clock", "sun"], ["--seconds", "0"], ["--budget", "-1"],
+                      ["--frames", "0"]):
+            result = frames("deadlines", *words)
+            self.assertNotEqual(result.returncode, 0, words)
+            self.assertNotEqual(result.stderr, "", words)
+
+
 if __name__ == "__main__":
     TOOL = os.path.abspath(sys.argv.pop(1))
     unittest.main()

@@ -278,7 +278,7 @@ TEST(Validate, RefusesEverySettingOutOfItsRange) {
   }
   refuse("k_gs", [](Settings* s) { s->k_gs = 0; });
   refuse("k_sm", [](Settings* s) { s->k_sm = -1; });
-  refuse("min_sweeps", [](Settings* s) { s->min_sweeps = -1; });
+  refuse("min_sweeps", [](Settings* s) { s->min_sweeps = -2; });
   refuse("max_sweeps", [](Settings* s) { s->max_sweeps = -1; });
   for (double bad : {-1e-300, kNan}) {
     refuse("tolerance", [&](Settings* s) { s->tolerance = bad; });

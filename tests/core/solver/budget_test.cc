@@ -12,6 +12,7 @@
 #include "tests/core/support/dense.h"
 #include "tests/core/support/packed.h"
 #include "tests/core/support/problems.h"
+#include "tests/core/support/test_clock.h"
 
 namespace cairn {
 namespace {
@@ -251,7 +252,10 @@ Scene MillionRows() {
 TEST(Budget, OfTimeSaysWhatStepsTookAndWereToTake) {
   const Scene scene = BigPile(3);
   const Budget day = Budget::Time(std::chrono::hours(24));
-  const Report report = test::Solve(Within(test::AlwaysSteps(20), day), scene).report;
+  const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(1));
+  Settings timed = Within(test::AlwaysSteps(20), day);
+  timed.clock = &clock;
+  const Report report = test::Solve(timed, scene).report;
   EXPECT_GT(report.factorisations, 0);
   EXPECT_GT(report.step_predicted, nanoseconds(0));
   EXPECT_GT(report.step_time, nanoseconds(0));
@@ -269,14 +273,11 @@ TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
   // 81 us by the price that is begun with and the margin, 31 on a fast machine, 130 on a slow one
   constexpr double kUnits = 5e4;
   WorkPrices prices;
-  const auto tries = [&prices](double units, Budget budget) {
-    // unless the machine takes a break just then
-    for (int i = 0; i < 1000; ++i) {
-      WorkPrices copy = prices;
-      BudgetMeter meter(budget, 0, &copy);
-      if (meter.Fits(units, 0)) return true;
-    }
-    return false;
+  const test::ScriptedClock still = test::TickingClock(nanoseconds(0));
+  const auto tries = [&](double units, Budget budget) {
+    WorkPrices copy = prices;
+    BudgetMeter meter(budget, 0, &copy, &still);
+    return meter.Fits(units, 0);
   };
   EXPECT_TRUE(tries(kUnits, Budget::Time(microseconds(80))));
   EXPECT_FALSE(tries(kUnits, Budget::Work(100)));
@@ -284,18 +285,25 @@ TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
   EXPECT_FALSE(tries(kUnits, Budget::Time(microseconds(30))));
   EXPECT_FALSE(tries(kUnits, Budget::Time(microseconds(60))));
   EXPECT_FALSE(tries(100 * kUnits, Budget::Time(microseconds(8000))));
+  // the last two may be tried where steps are given up when the time is
+  prices.can_give_up_steps = true;
+  EXPECT_FALSE(tries(kUnits, Budget::Time(microseconds(30))));
+  EXPECT_TRUE(tries(kUnits, Budget::Time(microseconds(60))));
+  EXPECT_TRUE(tries(100 * kUnits, Budget::Time(microseconds(8000))));
+  prices.can_give_up_steps = false;
 
   // not again before so many frames had no room
   prices.frames_to_refuse = 1;
   EXPECT_FALSE(tries(kUnits, Budget::Time(microseconds(80))));
-  BudgetMeter meter(Budget::Time(microseconds(80)), 0, &prices);
+  BudgetMeter meter(Budget::Time(microseconds(80)), 0, &prices, &still);
   EXPECT_FALSE(meter.Fits(kUnits, 0));
   meter.ChargeFinish();
   EXPECT_EQ(prices.frames_refused, 1);
   EXPECT_TRUE(tries(kUnits, Budget::Time(microseconds(80))));
 
   // a step that was timed gives the price
-  BudgetMeter timed(Budget::Time(std::chrono::hours(1)), 0, &prices);
+  const test::ScriptedClock clock = test::TickingClock(microseconds(1));
+  BudgetMeter timed(Budget::Time(std::chrono::hours(1)), 0, &prices, &clock);
   EXPECT_TRUE(timed.Fits(kUnits, 0));
   timed.Begin();
   timed.Charge(WorkKind::kStep, 1e9);

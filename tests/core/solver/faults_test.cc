@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 #include <stdexcept>
 #include <thread>
@@ -12,6 +13,7 @@
 
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/manifold_problems.h"
+#include "tests/core/support/test_clock.h"
 #include "tests/core/support/watched_new.h"
 
 namespace cairn {
@@ -106,6 +108,14 @@ void FailEverywhere(const Settings& settings) {
 
 TEST(NoMemory, LeavesASolverOfBlocksAsNew) {
   FailEverywhere({.max_sweeps = 20, .tolerance = 0, .step_policy = StepPolicy::kAlways});
+}
+
+TEST(NoMemory, LeavesASolverUnderABudgetOfTimeAsNew) {
+  const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(10));
+  FailEverywhere({.tolerance = 0,
+                  .budget = Budget::Time(std::chrono::microseconds(300)),
+                  .clock = &clock,
+                  .step_policy = StepPolicy::kAlways});
 }
 
 TEST(NoMemory, LeavesASolverOfRowsAsNew) {
