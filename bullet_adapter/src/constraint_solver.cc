@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/bullet/constraint_solver.h"
 
+#include <LinearMath/btIDebugDraw.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -89,6 +91,10 @@ struct ConstraintSolver::Impl {
 
   std::unique_ptr<Recorder> recorder = Recorder::FromEnvironment(kSource);
 
+  /// False, and the report says why, if a setting is out of its range.
+  bool AcceptSettings();
+  std::string told;  ///< the last warning
+
   /// Takes a copy of the problem if it is to be recorded, on nobody's budget.
   bool BeginRecording(const ContactProblem& problem, const Impulses& impulses);
 };
@@ -109,6 +115,15 @@ bool ConstraintSolver::Impl::BeginRecording(const ContactProblem& problem,
   return recording;
 }
 
+bool ConstraintSolver::Impl::AcceptSettings() {
+  const BadSetting bad = FindBadSetting(settings);
+  if (bad.name == nullptr) return true;
+  report = {};
+  report.status = Status::kBadSettings;
+  report.bad_setting = bad;
+  return false;
+}
+
 ConstraintSolver::ConstraintSolver(const Settings& settings, const Options& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->settings = settings;
@@ -126,6 +141,18 @@ const Report& ConstraintSolver::report() const { return impl_->report; }
 SubstepTimes ConstraintSolver::times() const { return impl_->times; }
 
 bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
+
+std::string ConstraintSolver::complaint() const {
+  return impl_->report.ok() ? std::string() : Describe(impl_->report);
+}
+
+void ConstraintSolver::Warn(btIDebugDraw* debug_drawer) {
+  std::string complaint = this->complaint();
+  if (complaint == impl_->told) return;
+  impl_->told = std::move(complaint);
+  if (debug_drawer == nullptr || impl_->told.empty()) return;
+  debug_drawer->reportErrorWarning(("cairn: " + impl_->told).c_str());
+}
 
 ContactProblem ConstraintSolver::problem() const {
   return impl_->solved_fast ? impl_->fast.problem() : impl_->rows.problem();
@@ -184,6 +211,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer, dispatcher);
   }
+  Warn(debug_drawer);
   if (impl_->recorder != nullptr) impl_->recorder->NextFrame();
   return result;
 }
@@ -206,7 +234,7 @@ void ConstraintSolver::reset() {
 }
 
 bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
-  if (!AllOfKnownType(group.joints)) return false;
+  if (!AllOfKnownType(group.joints) || !impl_->AcceptSettings()) return false;
   FastGroup& fast = impl_->fast;
   {
     const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kRead});
@@ -219,6 +247,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     fast.Forget();
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
+    impl_->report.elapsed = Clock::now() - impl_->start;
     impl_->solved_fast = true;
     return true;
   }
@@ -269,9 +298,16 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   if (m_tmpSolverBodyPool.size() == 0) {
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
+    impl_->report.elapsed = Clock::now() - impl_->start;
     return 0;
   }
 
+  if (!impl_->AcceptSettings()) {
+    impl_->fell_back = true;
+    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
+        bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
+        debug_drawer);
+  }
   Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
   if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;
   const bool recording =

@@ -164,9 +164,8 @@ Report LcpState::Finish(Eigen::VectorXd* result) {
   report_.residual_energy = residual.energy;
   report_.residual_relative = residual.relative;
   report_.work = meter_->work();
-  report_.elapsed = meter_->elapsed();
   Phases& phases = report_.phases;
-  phases.other = report_.elapsed - phases.layout - phases.sweeps - phases.ordering -
+  phases.other = meter_->elapsed() - phases.layout - phases.sweeps - phases.ordering -
                  phases.analysis - phases.factorisation - phases.solves;
   if (!timed_) phases.other = {};
   return report_;

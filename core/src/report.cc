@@ -1,7 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/report.h"
 
+#include <array>
+#include <charconv>
+
 namespace cairn {
+namespace {
+
+/// The shortest text that means this number, in any locale.
+std::string Text(double number) {
+  std::array<char, 32> text;
+  const auto [end, error] = std::to_chars(text.begin(), text.end(), number);
+  return {text.begin(), end};
+}
+
+std::string Text(const BadSetting& bad) {
+  return std::string(bad.name) + " is " + Text(bad.value) + ", must be " + bad.range;
+}
+
+}  // namespace
 
 std::string_view Describe(Status status) {
   switch (status) {
@@ -80,6 +97,20 @@ std::string_view Describe(NoStep reason) {
       return "sweeps faster";
   }
   return "unknown reason";
+}
+
+std::string Describe(const Report& report) {
+  if (report.bad_setting.name != nullptr) return Text(report.bad_setting);
+  if (report.ok()) return std::string(Describe(report.stop));
+  std::string where;
+  const auto add = [&where](const char* what, int index) {
+    if (index >= 0) where = what + std::to_string(index) + ": ";
+  };
+  add("row ", report.bad_row);
+  add("body ", report.bad_body);
+  add("manifold ", report.bad_manifold);
+  add("joint ", report.bad_joint);
+  return where.append(Describe(report.status));
 }
 
 }  // namespace cairn

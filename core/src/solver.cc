@@ -2,6 +2,7 @@
 #include "cairn/solver.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -43,6 +44,24 @@ void CopyJudgement(const Report& checked, Report* report) {
   report->bad_body = checked.bad_body;
   report->bad_manifold = checked.bad_manifold;
   report->bad_joint = checked.bad_joint;
+}
+
+/// Wall clock since it was made.
+class StopWatch {
+ public:
+  std::chrono::nanoseconds elapsed() const { return Clock::now() - begin_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Clock::time_point begin_ = Clock::now();
+};
+
+/// False, and the report says why, if a setting is out of its range.
+bool Accept(const Settings& settings, Report* report) {
+  report->bad_setting = FindBadSetting(settings);
+  if (report->bad_setting.name != nullptr) report->status = Status::kBadSettings;
+  return report->ok();
 }
 
 /// Adds up what was done on the islands.
@@ -121,6 +140,9 @@ struct Solver::Impl {
     block_prices = {};
     row_prices = kRowPrices;
   }
+  /// See Solver::Solve().
+  void Solve(const ContactProblem& problem, const Impulses& impulses,
+             std::span<Velocity> velocities, Report* report);
   /// False, and nothing is written, if the result is not finite.
   bool SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
                      std::span<Velocity> velocities, Report* report);
@@ -211,24 +233,30 @@ void Solver::Reset() { impl_->Forget(); }
 void Solver::Observe(Observer observer) { impl_->observer = std::move(observer); }
 
 Report Solver::Solve(const BoxedLcp& problem, Eigen::VectorXd* x) {
+  const StopWatch watch;
   const Settings settings = impl_->settings;
   Report report;
-  report.status = Validate(settings);
-  const Impl::Attempt attempt(impl_.get());
-  return report.ok() ? impl_->lcp->Solve(problem, settings, impl_->observer, x) : report;
+  if (Accept(settings, &report)) {
+    const Impl::Attempt attempt(impl_.get());
+    report = impl_->lcp->Solve(problem, settings, impl_->observer, x);
+  }
+  report.elapsed = watch.elapsed();
+  return report;
 }
 
 Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorXd* v) {
+  const StopWatch watch;
   Report report = Validate(problem);
   const bool fit = u->size() == problem.a.size() && v->size() == problem.b.size();
   if (report.ok() && !fit) report.status = Status::kWrongSize;
-  if (!report.ok()) return report;
-
-  Eigen::VectorXd x(u->size() + v->size());
-  x << *u, *v;
-  report = Solve(ToBoxed(problem), &x);
-  *u = x.head(u->size());
-  *v = x.tail(v->size());
+  if (report.ok()) {
+    Eigen::VectorXd x(u->size() + v->size());
+    x << *u, *v;
+    report = Solve(ToBoxed(problem), &x);
+    *u = x.head(u->size());
+    *v = x.tail(v->size());
+  }
+  report.elapsed = watch.elapsed();
   return report;
 }
 
@@ -241,6 +269,13 @@ Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
 
 void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                    std::span<Velocity> velocities, Report* report) {
+  const StopWatch watch;
+  impl_->Solve(problem, impulses, velocities, report);
+  report->elapsed = watch.elapsed();
+}
+
+void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses,
+                         std::span<Velocity> velocities, Report* report) {
   // all but the memory of an earlier report
   std::vector<IslandReport> islands = std::move(report->islands);
   std::vector<int> island_of = std::move(report->island_of);
@@ -252,12 +287,13 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
   report->island_of = std::move(island_of);
   report->replay = std::move(replay);
 
-  const Settings& settings = impl_->settings;
-  report->status = Validate(settings);
+  if (!Accept(settings, report)) return;
   if (settings.method == Method::kPgsSmLiteral || settings.method == Method::kInteriorPoint) {
     report->status = Status::kBadSettings;
+    report->bad_setting = {"method", static_cast<double>(settings.method),
+                           "kPgs, kPsor or kPgsSm for contacts"};
+    return;
   }
-  if (!report->ok()) return;
   const bool sizes = HasValidSizes(problem, impulses);
   if (problem.bodies.empty() || !sizes) {
     report->status = Validate(problem, impulses).status;
@@ -266,34 +302,33 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
   if (velocities.size() != problem.bodies.size()) report->status = Status::kWrongSize;
   if (!report->ok()) return;
 
-  const Impl::Attempt attempt(impl_.get());
+  const Attempt attempt(this);
   bool in_blocks = InBlocks(problem, settings);
-  WorkPrices* const prices = in_blocks ? &impl_->block_prices : &impl_->row_prices;
+  WorkPrices* const prices = in_blocks ? &block_prices : &row_prices;
   BudgetMeter meter = MeterOf(settings, problem, prices);
   meter.Record(&report->replay);
   if (in_blocks) {
     const PackResult result =
-        impl_->blocks->Solve(problem, settings, &meter, impulses, velocities, report);
+        blocks->Solve(problem, settings, &meter, impulses, velocities, report);
     in_blocks = result == PackResult::kDone;
   }
   if (!in_blocks) {
     CopyJudgement(Validate(problem, impulses), report);
     if (!report->ok()) return;
-    if (!impl_->SolveInDouble(problem, &meter, impulses, velocities, report)) {
+    if (!SolveInDouble(problem, &meter, impulses, velocities, report)) {
       report->islands.clear();
       report->status = Status::kOverflow;
       report->stop = StopReason::kBrokeDown;
-      impl_->blocks->memories().EndFrame();
+      blocks->memories().EndFrame();
       return;
     }
   }
   meter.ChargeFinish();
   SumUp(report);
   report->work = meter.work();
-  report->elapsed = meter.elapsed();
   report->step_predicted = meter.steps_predicted();
   report->step_time = meter.steps_time();
-  impl_->blocks->memories().EndFrame();
+  blocks->memories().EndFrame();
 }
 
 }  // namespace cairn

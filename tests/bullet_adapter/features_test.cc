@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cairn/bullet/constraint_solver.h"
 #include "scenes/facts.h"
@@ -234,6 +236,56 @@ TEST(Features, AMotionThatBulletCannotHoldIsAnOverflow) {
   const bool is_float = sizeof(btScalar) == sizeof(float);
   EXPECT_EQ(solver.report().status, is_float ? Status::kOverflow : Status::kOk);
   EXPECT_EQ(solver.fell_back(), is_float);
+}
+
+/// Draws nothing, and keeps what Bullet calls warnings.
+class Warnings : public btIDebugDraw {
+ public:
+  std::vector<std::string> said;
+
+  void reportErrorWarning(const char* text) override { said.emplace_back(text); }
+  void drawLine(const btVector3&, const btVector3&, const btVector3&) override {}
+  void drawContactPoint(const btVector3&, const btVector3&, btScalar, int,
+                        const btVector3&) override {}
+  void draw3dText(const btVector3&, const char*) override {}
+  void setDebugMode(int) override {}
+  int getDebugMode() const override { return 0; }
+};
+
+// The world goes on with Bullet's iteration, and everybody who asks is told why.
+TEST(Features, ABadSettingIsNamed) {
+  for (const bullet::Mode mode : {bullet::Mode::kFast, bullet::Mode::kReference}) {
+    bullet::ConstraintSolver solver({}, {.mode = mode});
+    World world(&solver);
+    Warnings warnings;
+    world.bullet()->setDebugDrawer(&warnings);
+    world.AddGround(10);
+    const btRigidBody* const box = world.AddBox(
+        btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
+    world.Step();
+    EXPECT_TRUE(solver.report().ok());
+    EXPECT_GT(solver.report().elapsed.count(), 0);
+    EXPECT_EQ(solver.complaint(), "");
+
+    solver.settings().threads = 0;
+    for (int i = 0; i < 30; ++i) world.Step();
+    EXPECT_EQ(solver.report().status, Status::kBadSettings);
+    EXPECT_TRUE(solver.fell_back());
+    const std::string expected = "threads is 0, must be 1 to 1024";
+    EXPECT_EQ(solver.complaint(), expected);
+    EXPECT_EQ(warnings.said, std::vector{"cairn: " + expected});  // once
+    EXPECT_NEAR(box->getWorldTransform().getOrigin().y(), 0.5, 0.02);
+
+    // without a budget it has no effect, and is refused all the same
+    solver.settings() = Settings{.tolerance = -1};
+    world.Step();
+    EXPECT_EQ(solver.complaint(), "tolerance is -1, must be 0 or more");
+    solver.settings() = Settings{};
+    world.Step();
+    EXPECT_FALSE(solver.fell_back());
+    EXPECT_EQ(solver.complaint(), "");
+    EXPECT_EQ(warnings.said.size(), 2u);
+  }
 }
 
 TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 #include <chrono>
 #include <cstdint>
 
@@ -26,7 +28,7 @@ class Budget {
   }
 
   /// The deterministic twin: work units, >= 0; 1 unit = 1 row relaxation. Residuals and subspace
-  /// steps are charged from counts alone, and the clock is never read.
+  /// steps are charged from counts alone, and no result depends on the clock.
   static constexpr Budget Work(std::int64_t units) { return Budget(Kind::kWork, units); }
 
   constexpr Kind kind() const { return kind_; }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 namespace cairn {
 
 /// Where a Solver gets its threads from (Settings::executor). A game that has a job system of its

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 namespace cairn {
 
 /// Bodies whose gyroscopic terms are wanted, up to kMost at a time: number k of body l is at

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -133,13 +136,21 @@ struct Replay {
   friend bool operator==(const Replay&, const Replay&) = default;
 };
 
+/// A setting that is out of its range, in words for people: "<name> is <value>, must be <range>".
+struct BadSetting {
+  const char* name = nullptr;  ///< As in Settings, "threads" say; nullptr: all are in range.
+  double value = 0;            ///< Of an enum its number, of a budget nanoseconds or work units.
+  const char* range = "";      ///< "1 to 1024", say.
+};
+
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
   Status status = Status::kOk;
-  int bad_row = -1;       ///< First row refused, -1 if what is wrong is not a row.
-  int bad_body = -1;      ///< First body refused, -1 likewise.
-  int bad_manifold = -1;  ///< First manifold refused, -1 likewise.
-  int bad_joint = -1;     ///< First joint refused, -1 likewise.
+  BadSetting bad_setting;  ///< First setting refused: Status::kBadSettings.
+  int bad_row = -1;        ///< First row refused, -1 if what is wrong is not a row.
+  int bad_body = -1;       ///< First body refused, -1 likewise.
+  int bad_manifold = -1;   ///< First manifold refused, -1 likewise.
+  int bad_joint = -1;      ///< First joint refused, -1 likewise.
 
   double residual_max = 0;      ///< Residual::max over all islands [m/s].
   double residual_angular = 0;  ///< Residual::max_angular over all islands [rad/s].
@@ -157,7 +168,7 @@ struct [[nodiscard]] Report {
   std::int64_t factor_nonzeros = 0;     ///< Entries of the largest factor, likewise.
   std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
   Replay replay;                        ///< Contact problems with Budget::Time.
-  std::chrono::nanoseconds elapsed{0};  ///< 0 unless the budget is a time.
+  std::chrono::nanoseconds elapsed{0};  ///< Wall clock of the Solve(), whatever the budget.
   /// What subspace steps were predicted to take, with the factorisations that they made, and what
   /// they took, without the sweeps around them: contact problems with Budget::Time, else 0.
   std::chrono::nanoseconds step_predicted{0}, step_time{0};
@@ -168,5 +179,9 @@ struct [[nodiscard]] Report {
 
   bool ok() const { return status == Status::kOk; }
 };
+
+/// One sentence for people, without a full stop: what is wrong, and where. "threads is 0, must be 1
+/// to 1024", or "row 7: the lower bound ...". If all is well, why the iteration ended.
+std::string Describe(const Report& report);
 
 }  // namespace cairn

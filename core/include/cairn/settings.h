@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 #include "cairn/budget.h"
 #include "cairn/executor.h"
 #include "cairn/report.h"
@@ -63,7 +65,8 @@ enum class Acceleration {
   kNncg,
 };
 
-/// How hard to try. Plain data; Solve() rejects values out of range (Status::kBadSettings).
+/// How hard to try. Plain data; Solve() rejects values out of range (Status::kBadSettings), and
+/// Report::bad_setting names the first.
 struct Settings {
   Method method = Method::kPgsSm;
   SweepOrder order = SweepOrder::kAutomatic;
@@ -127,6 +130,10 @@ struct Settings {
   /// from its bounds, unit of x, >= 0; the paper's tol.
   double active_tolerance = 0;
 };
+
+/// The first setting that is out of its range, if any: what Solve() answers Status::kBadSettings
+/// to.
+[[nodiscard]] BadSetting FindBadSetting(const Settings& settings);
 
 /// Whether contact problems are swept in blocks, in floats, as far as these say; otherwise row by
 /// row in double precision.

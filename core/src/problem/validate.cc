@@ -117,10 +117,6 @@ Status CheckJointRows(const ContactProblem& problem, const Joint& joint, const I
   return Status::kOk;
 }
 
-constexpr int kMostThreads = 1024;
-/// Of one step: far beyond what any takes.
-constexpr int kMostFactorisations = 1000, kMostSolves = 1000;
-
 bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
 
 /// They are bodies of the problem, and not the same.
@@ -256,29 +252,6 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   if (!(bounce >= 0)) report.status = Status::kNotFinite;
   if (report.ok()) refused(problem.manifolds.size(), manifold, &report.bad_manifold);
   return report;
-}
-
-Status Validate(const Settings& settings) {
-  // names every field: a new one does not compile until its range is checked here
-  const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay,
-               min_sweeps, threads, executor, spans, omega, lifted_friction, acceleration,
-               step_policy, proximal, proximal_joints, refinements, active_tolerance] = settings;
-  static_cast<void>(executor);  // any will do, and any of these
-  static_cast<void>(spans);
-  const bool replays = replay == nullptr || replay->work >= 0;
-  const bool enums =
-      Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
-      Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
-      Inside(static_cast<int>(lifted_friction), 0, 1) &&
-      Inside(static_cast<int>(acceleration), 0, 1) &&
-      Inside(static_cast<int>(step_policy), 0, static_cast<int>(StepPolicy::kWeighed));
-  const bool counts = k_gs >= 1 && Inside(k_sm, 0, kMostFactorisations) && max_sweeps >= 0 &&
-                      min_sweeps >= 0 && Inside(threads, 1, kMostThreads) &&
-                      Inside(refinements, 1, kMostSolves);
-  const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
-                     omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
-                     Inside(proximal_joints, 1e-12, 1) && Inside(active_tolerance, 0, kInfinity);
-  return enums && counts && reals && replays && budget.valid() ? Status::kOk : Status::kBadSettings;
 }
 
 }  // namespace cairn

@@ -27,8 +27,6 @@ Status ValidateJoint(const ContactProblem& problem, int joint);
 /// One row of it. @pre the bodies are valid
 Status ValidateRow(const ContactProblem& problem, int row, double impulse);
 
-Status Validate(const Settings& settings);
-
 /// R with R R' = inv_inertia, zero columns last where the matrix has no rank. False if the matrix
 /// is not symmetric positive semidefinite, to the precision of a float.
 bool FactorInertia(const Eigen::Matrix3d& inv_inertia, Eigen::Matrix3d* factor);

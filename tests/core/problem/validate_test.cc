@@ -259,14 +259,17 @@ TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
 }
 
 TEST(Validate, RefusesEverySettingOutOfItsRange) {
-  const auto refuse = [](const std::string& what, const std::function<void(Settings*)>& spoil) {
-    SCOPED_TRACE(what);
+  const auto refuse = [](const std::string& name, const std::function<void(Settings*)>& spoil) {
+    SCOPED_TRACE(name);
     Solver solver;
     spoil(&solver.settings());
     const Scene scene = GoodScene();
     const Report report =
         SolveUntouched(&solver, scene, std::vector<double>(scene.rows.size(), 0.25));
     EXPECT_EQ(report.status, Status::kBadSettings);
+    EXPECT_EQ(report.bad_setting.name, name);
+    EXPECT_EQ(Describe(report).find(name + " is "), 0u) << Describe(report);
+    EXPECT_GT(report.elapsed.count(), 0);
   };
   for (double bad : {-1.0, std::nan("")}) {
     refuse("active_tolerance", [&](Settings* s) { s->active_tolerance = bad; });
@@ -284,12 +287,13 @@ TEST(Validate, RefusesEverySettingOutOfItsRange) {
     refuse("tolerance", [&](Settings* s) { s->tolerance = bad; });
     refuse("min_progress", [&](Settings* s) { s->min_progress = bad; });
   }
-  refuse("time", [](Settings* s) { s->budget = Budget::Time(std::chrono::nanoseconds(-1)); });
-  refuse("work", [](Settings* s) { s->budget = Budget::Work(-1); });
+  refuse("budget", [](Settings* s) { s->budget = Budget::Time(std::chrono::nanoseconds(-1)); });
+  refuse("budget", [](Settings* s) { s->budget = Budget::Work(-1); });
   for (int bad : {-1, 0, 1025}) refuse("threads", [&](Settings* s) { s->threads = bad; });
   for (double bad : {0.0, 2.0, -1.0, kNan}) refuse("omega", [&](Settings* s) { s->omega = bad; });
-  refuse("lifted", [](Settings* s) { s->lifted_friction = static_cast<LiftedFriction>(2); });
-  refuse("policy", [](Settings* s) { s->step_policy = static_cast<StepPolicy>(-1); });
+  refuse("lifted_friction",
+         [](Settings* s) { s->lifted_friction = static_cast<LiftedFriction>(2); });
+  refuse("step_policy", [](Settings* s) { s->step_policy = static_cast<StepPolicy>(-1); });
   for (double bad : {0.99e-8, 1.01, kNan})
     refuse("proximal", [&](Settings* s) { s->proximal = bad; });
   for (double bad : {0.99e-12, 1.01, kNan}) {
@@ -309,14 +313,41 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
                        .proximal = 1e-8,
                        .proximal_joints = 1e-12,
                        .refinements = 1};
-  EXPECT_EQ(Validate(least), Status::kOk);
+  EXPECT_EQ(FindBadSetting(least).name, nullptr);
   const Settings most{.tolerance = kInfinity,
                       .min_progress = kInfinity,
                       .omega = 1.999999,
                       .proximal = 1,
                       .proximal_joints = 1};
-  EXPECT_EQ(Validate(most), Status::kOk);
-  EXPECT_EQ(Validate(Settings{}), Status::kOk);
+  EXPECT_EQ(FindBadSetting(most).name, nullptr);
+  EXPECT_EQ(FindBadSetting(Settings{}).name, nullptr);
+}
+
+TEST(Describe, SaysWhichSettingIsOutOfWhichRange) {
+  const auto said = [](const Settings& settings) {
+    return Describe(test::Solve(settings, GoodScene()).report);
+  };
+  EXPECT_EQ(said(Settings{.threads = 0}), "threads is 0, must be 1 to 1024");
+  EXPECT_EQ(said(Settings{.tolerance = -0.25}), "tolerance is -0.25, must be 0 or more");
+  EXPECT_EQ(said(Settings{.tolerance = kNan}), "tolerance is nan, must be 0 or more");
+  EXPECT_EQ(said(Settings{.budget = Budget::Work(-3)}), "budget is -3, must be 0 or more");
+  // the first of two
+  EXPECT_EQ(said(Settings{.k_gs = 0, .threads = 2000}), "k_gs is 0, must be 1 or more");
+}
+
+TEST(Describe, SaysWhereAProblemIsBad) {
+  Scene scene = GoodScene();
+  scene.rows[1].lo = 2;
+  scene.rows[1].hi = 1;
+  EXPECT_EQ(Describe(test::Solve(Settings{}, scene).report),
+            "row 1: " + std::string(Describe(Status::kBadBounds)));
+  scene.bodies[2].inv_mass = -1;
+  EXPECT_EQ(Describe(test::Solve(Settings{}, scene).report),
+            "body 2: " + std::string(Describe(Status::kBadMass)));
+  EXPECT_EQ(Describe(Solver().Solve(ContactProblem{}, Impulses{}, {})),
+            Describe(Status::kEmptyProblem));
+  EXPECT_EQ(Describe(test::Solve(Settings{}, GoodScene()).report),
+            Describe(StopReason::kStationary));
 }
 
 /// A body that turns about one axis only, in the rounding of a float engine: the matrix has rank 1

@@ -131,7 +131,7 @@ TEST(Work, GivesTheSameBitsTwice) {
     const Solution first = test::Solve(settings, scene), second = test::Solve(settings, scene);
     EXPECT_TRUE(test::SameBits(first, second));
     EXPECT_EQ(first.report.work, second.report.work);
-    EXPECT_EQ(first.report.elapsed, nanoseconds(0));
+    EXPECT_GT(first.report.elapsed, nanoseconds(0));
   }
 }
 
@@ -210,14 +210,14 @@ TEST(Budget, ThatIsNeverSpentChangesNothing) {
   const Scene scene = BigPile(5);
   for (const Settings& settings : {test::PlainSweeps(60), test::AlwaysSteps(60)}) {
     const Solution unlimited = test::Solve(settings, scene);
-    EXPECT_EQ(unlimited.report.elapsed, nanoseconds(0));
+    EXPECT_GT(unlimited.report.elapsed, nanoseconds(0));
     for (const Budget& plenty :
          {Budget::Work(1'000'000'000'000), Budget::Time(std::chrono::hours(24))}) {
       const Solution s = test::Solve(Within(settings, plenty), scene);
       EXPECT_TRUE(test::SameBits(unlimited, s));
       EXPECT_EQ(s.report.work, unlimited.report.work);
       EXPECT_EQ(s.report.stop, unlimited.report.stop);
-      EXPECT_EQ(s.report.elapsed > nanoseconds(0), plenty.kind() == Budget::Kind::kTime);
+      EXPECT_GT(s.report.elapsed, nanoseconds(0));
     }
   }
 }

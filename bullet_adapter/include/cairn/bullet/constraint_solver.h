@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
 #include <chrono>
@@ -50,8 +52,10 @@ struct SubstepTimes {
 /// Settings::tolerance, Settings::max_sweeps or the budget. A Budget::Time is for the whole
 /// substep, set-up and write-back included.
 ///
-/// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration; report() says
-/// so. SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in the same order.
+/// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration, and so is all
+/// while a setting is out of its range. report() says so, complaint() in words, and
+/// btIDebugDraw::reportErrorWarning() of the world's debug drawer is told when the words change.
+/// SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in the same order.
 ///
 /// In Mode::kFast, btManifoldPoint::m_prevRHS of contacts is used, to know the directions of
 /// lateral impulses from one substep to the next, and joints start from the substep before only if
@@ -70,9 +74,12 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
   const Report& report() const;
   SubstepTimes times() const;
-  /// Whether that was solved as by Mode::kReference though Mode::kFast was asked for: it has joints
-  /// of a type that Bullet does not ship, or Solver::Solve() refused it or broke down.
+  /// Whether Bullet did what Cairn was asked to do: a setting is out of its range; or, in
+  /// Mode::kFast, it has joints of a type that Bullet does not ship, or Solver::Solve() refused it
+  /// or broke down.
   bool fell_back() const;
+  /// What report() says is wrong, for people: "threads is 0, must be 1 to 1024". Empty if nothing.
+  std::string complaint() const;
   /// The problem that report() is about, and the impulses that solve it, one per row: joints first,
   /// in the order in which Bullet hands them over, then contacts, those in manifolds last. Valid
   /// until the next substep, impulses until they are asked for again; empty before the first.
@@ -110,6 +117,7 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// False if the group was not solved.
   bool SolveFast(const Group& group, const btContactSolverInfo& info);
   void Analyse(const Group& group, int first_companion);
+  void Warn(btIDebugDraw* debug_drawer);
 
   std::unique_ptr<Impl> impl_;  // no member may ask for more than 16 bytes of alignment: the base
                                 // class brings an operator new that does not give more

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cairn/detail/cpp20.h"
+
 #include <LinearMath/btScalar.h>
 
 /// The precision of Bullet is part of the name of everything that sees its types. A program built
