@@ -3,9 +3,37 @@
 
 #include <limits>
 
-#include "lcp/cairn_lcp_solver.h"
-
 namespace cairn::cli {
+
+namespace {
+
+/// What the options of matrices mean to a frame; how long it takes is said later.
+Settings SettingsOf(Method method, const LcpOptions& options) {
+  Settings settings;
+  settings.method = method;
+  settings.order = static_cast<SweepOrder>(options.order);
+  settings.k_gs = options.k_gs;
+  settings.k_sm = options.k_sm;
+  settings.tolerance = options.tolerance;
+  settings.threads = options.threads;
+  settings.omega = options.omega;
+  return settings;
+}
+
+/// Why a solve ended, fit for a narrow column.
+std::string Name(StopReason reason) {
+  switch (reason) {
+    case StopReason::kNotStarted:
+      return "refused";
+    case StopReason::kTimeSpent:
+    case StopReason::kWorkSpent:
+      return "budget spent";
+    default:
+      return std::string(Describe(reason));
+  }
+}
+
+}  // namespace
 
 CairnRowSolver::CairnRowSolver(Method method, const LcpOptions& options)
     : solver_(SettingsOf(method, options)) {}

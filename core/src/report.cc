@@ -14,11 +14,11 @@ std::string Text(double number) {
   return {text.begin(), end};
 }
 
-std::string Text(const BadSetting& bad) {
+}  // namespace
+
+std::string Describe(const BadSetting& bad) {
   return std::string(bad.name) + " is " + Text(bad.value) + ", must be " + bad.range;
 }
-
-}  // namespace
 
 std::string_view Describe(Status status) {
   switch (status) {
@@ -47,12 +47,6 @@ std::string_view Describe(Status status) {
              "its own";
     case Status::kBadFriction:
       return "a coefficient of friction or restitution is negative";
-    case Status::kBadDiagonal:
-      return "a diagonal entry of the matrix is missing, zero or negative";
-    case Status::kNotSymmetric:
-      return "the matrix is not symmetric";
-    case Status::kNotPositiveDefinite:
-      return "the matrix is not positive definite: no minimum, or none that this method finds";
     case Status::kOverflow:
       return "the numbers are so large, or so far apart, that the result is not finite";
   }
@@ -67,12 +61,8 @@ std::string_view Describe(StopReason reason) {
       return "converged";
     case StopReason::kStationary:
       return "stationary";
-    case StopReason::kStalled:
-      return "stalled at rounding";
     case StopReason::kBrokeDown:
       return "broke down";
-    case StopReason::kCancelled:
-      return "cancelled";
     case StopReason::kSweepLimit:
       return "sweep limit";
     case StopReason::kTimeSpent:
@@ -100,7 +90,7 @@ std::string_view Describe(NoStep reason) {
 }
 
 std::string Describe(const Report& report) {
-  if (report.bad_setting.name != nullptr) return Text(report.bad_setting);
+  if (report.bad_setting.name != nullptr) return Describe(report.bad_setting);
   if (report.ok()) return std::string(Describe(report.stop));
   std::string where;
   const auto add = [&where](const char* what, int index) {

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/lcp/lcp_solver.h"
 #include "cycle/block_solver.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
@@ -120,7 +119,6 @@ struct Solver::Impl {
    public:
     explicit Attempt(Impl* impl) : impl_(impl) {
       if (impl->blocks == nullptr) impl->blocks = std::make_unique<BlockSolver>();
-      if (impl->lcp == nullptr) impl->lcp = std::make_unique<LcpSolver>();
     }
     ~Attempt() {
       if (std::uncaught_exceptions() > exceptions_) impl_->Forget();
@@ -136,7 +134,6 @@ struct Solver::Impl {
   /// What was learnt. The next Attempt makes it anew.
   void Forget() {
     blocks.reset();
-    lcp.reset();
     block_prices = {};
     row_prices = kRowPrices;
   }
@@ -155,10 +152,8 @@ struct Solver::Impl {
       .sweep_ns = 20, .step_ns = 20, .finish_ns = 30, .least_step_ns = 8, .most_step_ns = 40};
 
   Settings settings;
-  Observer observer;
   WorkPrices block_prices, row_prices = kRowPrices;
   std::unique_ptr<BlockSolver> blocks;
-  std::unique_ptr<LcpSolver> lcp;
 };
 bool Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
                                  const Impulses& impulses, std::span<Velocity> velocities,
@@ -230,36 +225,6 @@ const Settings& Solver::settings() const { return impl_->settings; }
 
 void Solver::Reset() { impl_->Forget(); }
 
-void Solver::Observe(Observer observer) { impl_->observer = std::move(observer); }
-
-Report Solver::Solve(const BoxedLcp& problem, Eigen::VectorXd* x) {
-  const StopWatch watch;
-  const Settings settings = impl_->settings;
-  Report report;
-  if (Accept(settings, &report)) {
-    const Impl::Attempt attempt(impl_.get());
-    report = impl_->lcp->Solve(problem, settings, impl_->observer, x);
-  }
-  report.elapsed = watch.elapsed();
-  return report;
-}
-
-Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorXd* v) {
-  const StopWatch watch;
-  Report report = Validate(problem);
-  const bool fit = u->size() == problem.a.size() && v->size() == problem.b.size();
-  if (report.ok() && !fit) report.status = Status::kWrongSize;
-  if (report.ok()) {
-    Eigen::VectorXd x(u->size() + v->size());
-    x << *u, *v;
-    report = Solve(ToBoxed(problem), &x);
-    *u = x.head(u->size());
-    *v = x.tail(v->size());
-  }
-  report.elapsed = watch.elapsed();
-  return report;
-}
-
 Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                      std::span<Velocity> velocities) {
   Report report;
@@ -288,12 +253,6 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   report->replay = std::move(replay);
 
   if (!Accept(settings, report)) return;
-  if (settings.method == Method::kPgsSmLiteral || settings.method == Method::kInteriorPoint) {
-    report->status = Status::kBadSettings;
-    report->bad_setting = {"method", static_cast<double>(settings.method),
-                           "kPgs, kPsor or kPgsSm for contacts"};
-    return;
-  }
   const bool sizes = HasValidSizes(problem, impulses);
   if (problem.bodies.empty() || !sizes) {
     report->status = Validate(problem, impulses).status;

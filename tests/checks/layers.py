@@ -6,7 +6,7 @@ import re
 import tree
 
 # Where a quoted include is looked for, beside the folder of the file itself.
-INCLUDE_ROOTS = ("", "core/include", "core/src", "bullet_adapter/include", "bullet_adapter/src",
+INCLUDE_ROOTS = ("", "core/include", "core/src", "core/lcp/include", "core/lcp/src", "bullet_adapter/include", "bullet_adapter/src",
                  "bench")
 
 # Rooms of the core, in the order of a frame.
@@ -29,14 +29,16 @@ MAY_INCLUDE = {
     # The double-precision path: the frame above never includes it.
     "core/src/reference": BELOW_STEP + ("core/src/step/", "core/src/reference/"),
     "core/src/recording": ("core/include/", "core/src/problem/", "core/src/recording/"),
-    "core/src": ("core/", "simd/"),
-    "core/lcp": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/runtime/", "simd/"),
+    "core/src": ("core/include/", "core/src/", "simd/"),
+    "core/lcp/include": ("core/lcp/include/", "core/include/"),
+    "core/lcp/src": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/problem/",
+                     "core/src/runtime/", "simd/"),
     "bullet_adapter/include": ("bullet_adapter/include/", "core/include/"),
     "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
-    "bench": ("bench/", "bullet_adapter/include/", "core/include/", "simd/"),
+    "bench": ("bench/", "bullet_adapter/include/", "core/include/", "core/lcp/include/", "simd/"),
     "bench/micro": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
     "bench/worlds": ("bench/", "bullet_adapter/include/", "core/", "simd/"),
-    "examples": ("examples/", "bullet_adapter/include/", "core/include/"),
+    "examples": ("examples/", "bullet_adapter/include/", "core/include/", "core/lcp/include/"),
     "tests": ("",),
 }
 

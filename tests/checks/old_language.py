@@ -6,7 +6,7 @@ import sys
 
 import tree
 
-FOLDERS = ("core/include", "bullet_adapter/include")
+FOLDERS = ("core/include", "core/lcp/include", "bullet_adapter/include")
 SENTENCE = "Cairn needs C++20"
 
 

@@ -21,8 +21,8 @@ class Budget {
   /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every 8192
   /// rows, and what writing the results will take is set aside; a subspace step starts only if its
   /// predicted cost and the sweeps after it fit. Results depend on the machine: Report::replay says
-  /// how to make them again. For a problem in matrix form the clock is read between sweeps and
-  /// between factorisations, not inside them.
+  /// how to make them again. cairn::lcp reads the clock between sweeps and between factorisations,
+  /// not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());
   }

@@ -12,8 +12,7 @@
 
 namespace cairn {
 
-/// Whether the input could be used. All but kOk and kNotPositiveDefinite leave every output
-/// untouched.
+/// Whether the input could be used. All but kOk leave every output untouched.
 enum class Status {
   kOk,
   kBadSettings,   ///< A field of Settings is out of its range.
@@ -28,13 +27,7 @@ enum class Status {
   kBadParent,      ///< The parent of a friction row comes later, is itself a friction row, or
                    ///< joins other bodies.
   kBadFriction,    ///< Negative friction coefficient, or restitution.
-  kBadDiagonal,    ///< A diagonal entry of the matrix is missing, zero or negative.
-  kNotSymmetric,   ///< M_ij and M_ji differ by more than rounding.
-  /// A matrix could not be factorised, even with a proximal term of 1e-7 of its diagonal, or sweeps
-  /// grew without end.
-  /// The best iterate is returned: it is inside its bounds and usable.
-  kNotPositiveDefinite,
-  kOverflow,  ///< Numbers are finite, but too large or too far apart for a finite result.
+  kOverflow,       ///< Numbers are finite, but too large or too far apart for a finite result.
 };
 
 /// One sentence for people, without a full stop.
@@ -45,9 +38,7 @@ enum class StopReason {
   kNotStarted,  ///< The input was refused.
   kConverged,   ///< Residual <= Settings::tolerance.
   kStationary,  ///< A sweep moved no row by more than Settings::min_progress.
-  kStalled,     ///< Nothing the method has left brings the residual down: rounding decides.
   kBrokeDown,   ///< Report::status says why.
-  kCancelled,   ///< The observer said so.
   kSweepLimit,  ///< Settings::max_sweeps done.
   kTimeSpent,   ///< Budget::Time reached.
   kWorkSpent,   ///< Budget::Work reached.
@@ -115,17 +106,6 @@ struct IslandReport {
   StopReason stop = StopReason::kNotStarted;
 };
 
-/// Where the time of a problem in matrix form went, wall clock.
-struct Phases {
-  std::chrono::nanoseconds layout{0};    ///< Checking the input, laying out rows.
-  std::chrono::nanoseconds sweeps{0};    ///< Relaxing rows.
-  std::chrono::nanoseconds ordering{0};  ///< Choosing the order of elimination.
-  std::chrono::nanoseconds analysis{0};  ///< Symbolic factorisations.
-  std::chrono::nanoseconds factorisation{0};
-  std::chrono::nanoseconds solves{0};  ///< Forward and backward substitutions.
-  std::chrono::nanoseconds other{0};   ///< Residuals, sets, step lengths, observers.
-};
-
 /// What the clock decided in a Solve() with Budget::Time. Given back as Settings::replay, with the
 /// same frames before it, it makes the same frame again, to the bit, on any machine.
 struct Replay {
@@ -142,6 +122,9 @@ struct BadSetting {
   double value = 0;            ///< Of an enum its number, of a budget nanoseconds or work units.
   const char* range = "";      ///< "1 to 1024", say.
 };
+
+/// "threads is 0, must be 1 to 1024". @pre it has a name
+std::string Describe(const BadSetting& bad);
 
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
@@ -162,17 +145,12 @@ struct [[nodiscard]] Report {
   int guarded = 0;  ///< Islands that something was guarded on; see Guards.
   StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
                                               ///< any island before a sweep limit before the rest.
-  /// Problems in matrix form: LcpResidual::relative. 0 for others.
-  double residual_relative = 0;
-  int analyses = 0;                     ///< Symbolic factorisations, likewise.
-  std::int64_t factor_nonzeros = 0;     ///< Entries of the largest factor, likewise.
-  std::int64_t work = 0;                ///< Work units spent; see Budget::Work.
-  Replay replay;                        ///< Contact problems with Budget::Time.
-  std::chrono::nanoseconds elapsed{0};  ///< Wall clock of the Solve(), whatever the budget.
+  std::int64_t work = 0;                      ///< Work units spent; see Budget::Work.
+  Replay replay;                              ///< Contact problems with Budget::Time.
+  std::chrono::nanoseconds elapsed{0};        ///< Wall clock of the Solve(), whatever the budget.
   /// What subspace steps were predicted to take, with the factorisations that they made, and what
   /// they took, without the sweeps around them: contact problems with Budget::Time, else 0.
   std::chrono::nanoseconds step_predicted{0}, step_time{0};
-  Phases phases;  ///< Problems in matrix form, 0 unless the budget is a time.
   std::vector<IslandReport> islands;
   std::vector<int> island_of;  ///< By body: its place in islands, -1 for one without rows. Of a
                                ///< contact problem that was solved.

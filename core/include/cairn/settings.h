@@ -15,26 +15,19 @@ enum class Method {
   kPgs,    ///< Projected Gauss-Seidel: sweeps only.
   kPsor,   ///< The same with over-relaxation Settings::omega.
   kPgsSm,  ///< Sweeps and subspace minimisation steps.
-  /// Sweeps and steps exactly as the paper states them, without any safeguard: for comparison. For
-  /// problems in matrix form only: a ContactProblem answers kBadSettings.
-  kPgsSmLiteral,
-  /// Mehrotra's predictor-corrector; rows without bounds stay equations. Likewise.
-  kInteriorPoint,
 };
 
 /// The order in which rows are swept.
 enum class SweepOrder {
-  /// Matrix form: kColoured for a large problem that few colours suffice for, else kForward; the
-  /// choice depends on the matrix alone. Contact problems: kColoured, unless Settings::tolerance is
-  /// too fine for floats (positive and below 1e-5).
+  /// kColoured, unless Settings::tolerance is too fine for floats (positive and below 1e-5).
   kAutomatic,
-  /// Row 0 first. Contact problems: in double precision, on one thread.
+  /// Row 0 first, in double precision, on one thread.
   kForward,
-  kReverse,    ///< Row 0 last. Contact problems: as kForward.
-  kSymmetric,  ///< Forward and reverse in turn. Contact problems: as kForward.
-  /// Colour by colour: what has one colour shares no unknown, and threads relax it side by side.
-  /// Same bits for any number of threads. Contact problems: all rows of two bodies together, joints
-  /// before contacts, in floats with vector instructions; the same bits for any of those. What
+  kReverse,    ///< As kForward.
+  kSymmetric,  ///< As kForward.
+  /// Colour by colour: what has one colour shares no body, and threads relax it side by side. Same
+  /// bits for any number of threads. All rows of two bodies together, joints before contacts, in
+  /// floats with vector instructions; the same bits for any of those. What
   /// floats cannot hold is left to kForward: a start or 1 / d beyond 1e12, say. See docs/solver.md.
   kColoured,
 };
@@ -75,22 +68,19 @@ struct Settings {
   /// step leaves behind; two are not.
   int k_gs = 5;
   /// Factorisations in one subspace step at most, in [0, 1000]: one, and one more for each pass
-  /// that removes rows which left their bounds. 0 makes every method but kInteriorPoint plain
-  /// sweeps. In matrix form kPgsSm goes on beyond it while the predicted set settles.
+  /// that removes rows which left their bounds. 0: no steps.
   int k_sm = 2;
   /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed.
   int max_sweeps = 1000;
   /// Solve() is done when no row is further from its law than this: natural residual, in [m/s] for
-  /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never. For a
-  /// problem in matrix form: LcpResidual::relative.
+  /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never.
   double tolerance = 1e-3;
   /// Solve() is also done when a whole sweep moved no row by more than this, [m/s] or [rad/s],
-  /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration. For a problem in
-  /// matrix form: sqrt(sum d_i (change of x_i)^2), unit of LcpResidual::energy.
+  /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration.
   double min_progress = 0;
   Budget budget = Budget::Unlimited();
   /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
-  /// nullptr: none. Must outlive the Solve(). Contact problems only.
+  /// nullptr: none. Must outlive the Solve().
   const Replay* replay = nullptr;
   /// Sweeps made even if the budget is spent before them, >= 0. At 0 a budget that is too small for
   /// anything returns the warm start.
@@ -126,9 +116,6 @@ struct Settings {
   /// Solves with the last factor of a step at most, in [1, 1000]. Those after the first refine it
   /// while no row leaves its bounds; see docs/solver.md before raising it.
   int refinements = 1;
-  /// Problems in matrix form: a row belongs to the predicted free set if it is further than this
-  /// from its bounds, unit of x, >= 0; the paper's tol.
-  double active_tolerance = 0;
 };
 
 /// The first setting that is out of its range, if any: what Solve() answers Status::kBadSettings

@@ -36,7 +36,7 @@ class Shift {
 PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
                               BudgetMeter* meter, const Impulses& impulses,
                               std::span<Velocity> velocities, Report* report) {
-  crew_.Follow(settings);
+  crew_.Follow(settings.threads, settings.executor);
   const size_t rows = AllRows(problem);
   Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
   crew->RecordTo(settings.spans);

@@ -187,11 +187,14 @@ void Visit(Settings& settings, Io& io) {
   // names every field: a new one does not compile until it is part of the file
   auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay, min_sweeps,
          threads, executor, spans, omega, lifted_friction, acceleration, step_policy, proximal,
-         proximal_joints, refinements, active_tolerance] = settings;
+         proximal_joints, refinements] = settings;
   static_cast<void>(replay);  // has a section of its own
   static_cast<void>(executor);
   static_cast<void>(spans);
-  io.Enum(method, Method::kInteriorPoint);
+  // methods of matrices once had numbers here; contacts were refused to them
+  constexpr auto kLastMethod = static_cast<Method>(4);
+  io.Enum(method, kLastMethod);
+  if (method > Method::kPgsSm) method = Method::kPgsSm;
   io.Enum(order, SweepOrder::kColoured);
   io.I32(k_gs);
   io.I32(k_sm);
@@ -210,7 +213,8 @@ void Visit(Settings& settings, Io& io) {
   io.F64(omega);
   io.F64(proximal);
   io.F64(proximal_joints);
-  io.F64(active_tolerance);
+  double of_matrices = 0;  // was active_tolerance
+  io.F64(of_matrices);
   io.I32(refinements);
   io.Enum(acceleration, Acceleration::kNncg);
 }

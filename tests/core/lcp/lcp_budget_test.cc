@@ -7,7 +7,7 @@
 
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -164,4 +164,4 @@ TEST(LcpWork, OfSweepsIsTheirRows) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

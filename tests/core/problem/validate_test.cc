@@ -271,14 +271,8 @@ TEST(Validate, RefusesEverySettingOutOfItsRange) {
     EXPECT_EQ(Describe(report).find(name + " is "), 0u) << Describe(report);
     EXPECT_GT(report.elapsed.count(), 0);
   };
-  for (double bad : {-1.0, std::nan("")}) {
-    refuse("active_tolerance", [&](Settings* s) { s->active_tolerance = bad; });
-  }
-  refuse("method", [](Settings* s) { s->method = static_cast<Method>(5); });
+  refuse("method", [](Settings* s) { s->method = static_cast<Method>(3); });
   refuse("order", [](Settings* s) { s->order = static_cast<SweepOrder>(5); });
-  for (Method matrix_only : {Method::kPgsSmLiteral, Method::kInteriorPoint}) {
-    refuse("method", [&](Settings* s) { s->method = matrix_only; });
-  }
   refuse("k_gs", [](Settings* s) { s->k_gs = 0; });
   refuse("k_sm", [](Settings* s) { s->k_sm = -1; });
   refuse("min_sweeps", [](Settings* s) { s->min_sweeps = -1; });

@@ -116,8 +116,7 @@ TEST(Recording, KeepsEverySettingButPointers) {
                         .step_policy = StepPolicy::kAlways,
                         .proximal = 1e-5,
                         .proximal_joints = 1e-7,
-                        .refinements = 9,
-                        .active_tolerance = 0.125};
+                        .refinements = 9};
   const Settings read = Decoded(EncodeAll(recording)).settings;
   EXPECT_EQ(read.method, Method::kPsor);
   EXPECT_EQ(read.order, SweepOrder::kSymmetric);
@@ -136,7 +135,6 @@ TEST(Recording, KeepsEverySettingButPointers) {
   EXPECT_EQ(read.proximal, 1e-5);
   EXPECT_EQ(read.proximal_joints, 1e-7);
   EXPECT_EQ(read.refinements, 9);
-  EXPECT_EQ(read.active_tolerance, 0.125);
   for (const Budget& budget : {Budget::Unlimited(), Budget::Work(77)}) {
     recording.settings.budget = budget;
     EXPECT_EQ(Decoded(EncodeAll(recording)).settings.budget, budget);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/lcp/solver.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/manifold_problems.h"
 #include "tests/core/support/watched_new.h"
@@ -113,7 +114,7 @@ TEST(NoMemory, LeavesASolverOfRowsAsNew) {
 }
 
 TEST(NoMemory, LeavesASolverOfMatricesAsNew) {
-  BoxedLcp problem;
+  lcp::BoxedLcp problem;
   const int size = 12;
   problem.M.resize(size, size);
   for (int i = 0; i < size; ++i) {
@@ -125,11 +126,11 @@ TEST(NoMemory, LeavesASolverOfMatricesAsNew) {
   problem.lo = Eigen::VectorXd::Zero(size);
   problem.hi = Eigen::VectorXd::Constant(size, kInfinity);
   const Eigen::VectorXd start = Eigen::VectorXd::Ones(size);
-  for (Method method : {Method::kPgs, Method::kPgsSm, Method::kInteriorPoint}) {
+  for (lcp::Method method : {lcp::Method::kPgs, lcp::Method::kPgsSm, lcp::Method::kInteriorPoint}) {
     Eigen::VectorXd expected = start;
-    (void)Solver({.method = method}).Solve(problem, &expected);
+    (void)lcp::Solver({.method = method}).Solve(problem, &expected);
     for (long call = 0;; ++call) {
-      Solver solver({.method = method});
+      lcp::Solver solver({.method = method});
       Eigen::VectorXd x = start;
       bool threw = false;
       try {

@@ -15,7 +15,7 @@ namespace {
 
 TEST(Describe, SaysSomethingElseForEveryStatus) {
   std::set<std::string_view> sentences;
-  for (int i = 0; i <= static_cast<int>(Status::kBadFriction); ++i) {
+  for (int i = 0; i <= static_cast<int>(Status::kOverflow); ++i) {
     const std::string_view sentence = Describe(static_cast<Status>(i));
     EXPECT_GT(sentence.size(), 10u) << i;
     EXPECT_NE(sentence.back(), '.') << sentence;
