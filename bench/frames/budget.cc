@@ -56,7 +56,7 @@ struct Lane {
 Settings Under(double budget_ms, const BudgetOptions& options) {
   Settings settings = Sweeps(1000000, options.threads);
   settings.method = options.method;
-  settings.min_sweeps = options.min_sweeps;
+  settings.tuning.min_sweeps = options.min_sweeps;
   settings.budget = Budget::Time(std::chrono::nanoseconds(std::llround(budget_ms * 1e6)));
   return settings;
 }

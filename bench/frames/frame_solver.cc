@@ -44,7 +44,7 @@ Settings Sweeps(int count, int threads) {
   settings.method = Method::kPgs;
   settings.max_sweeps = count;
   settings.tolerance = 0;
-  settings.min_progress = 0;
+  settings.tuning.min_progress = 0;
   settings.threads = threads;
   return settings;
 }

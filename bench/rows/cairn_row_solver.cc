@@ -11,12 +11,15 @@ namespace {
 Settings SettingsOf(Method method, const LcpOptions& options) {
   Settings settings;
   settings.method = method;
-  settings.order = static_cast<SweepOrder>(options.order);
+  if (options.order != lcp::SweepOrder::kAutomatic) {
+    const bool coloured = options.order == lcp::SweepOrder::kColoured;
+    settings.path = coloured ? Path::kFast : Path::kReference;
+  }
   settings.k_gs = options.k_gs;
   settings.k_sm = options.k_sm;
   settings.tolerance = options.tolerance;
   settings.threads = options.threads;
-  settings.omega = options.omega;
+  settings.tuning.omega = options.omega;
   return settings;
 }
 

@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
+#include "cairn/detail/spans.h"
 #include "cairn/solver.h"
 #include "fast_group.h"
 
@@ -30,35 +31,39 @@ constexpr double kGoodEnough = 1e-4;
 constexpr const char* kSource =
     sizeof(btScalar) == 4 ? "cairn::bullet, float" : "cairn::bullet, float64";
 
-bool Unlimited(const Settings& settings) {
+/// Whether Bullet's info says how hard to try, not the settings.
+bool ByIterations(const Settings& settings, const Options& options) {
+  if (options.effort != Effort::kAuto) return options.effort == Effort::kIterations;
   return settings.budget.kind() == Budget::Kind::kUnlimited;
 }
 
 /// Rows have limits of their own only where some joint asks for other iterations than the rest.
-SweepLimits LimitsOf(const Settings& settings, std::span<btTypedConstraint* const> joints) {
+SweepLimits LimitsOf(bool by_iterations, std::span<btTypedConstraint* const> joints) {
   const bool own = std::any_of(joints.begin(), joints.end(), [](const btTypedConstraint* joint) {
     return joint->getOverrideNumSolverIterations() > 0;
   });
-  return own && Unlimited(settings) ? SweepLimits::kBullet : SweepLimits::kNone;
+  return own && by_iterations ? SweepLimits::kBullet : SweepLimits::kNone;
 }
 
 /// Whether the iteration is Bullet's own.
 bool SweepsAsBullet(const Settings& settings) {
   return settings.method == Method::kPgs ||
-         (settings.method == Method::kPgsSm && settings.k_sm == 0);
+         (settings.method == Method::kPgsSm && (settings.k_sm == 0 || !settings.steps));
 }
 
 /// Iteration settings of one group: what the user asked for, and what Bullet's info says.
-Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max_override) {
+Settings ForGroup(const Settings& user, const Options& options, const btContactSolverInfo& info,
+                  int max_override) {
   Settings settings = user;
-  if (Unlimited(user)) {
+  if (ByIterations(user, options)) {
     settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
     settings.tolerance = 0;
     if (user.step_policy == StepPolicy::kMeasured) {
       settings.step_policy = StepPolicy::kWeighed;
       if (!SweepsAsBullet(user)) settings.tolerance = kGoodEnough;
     }
-    settings.min_progress = std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
+    settings.tuning.min_progress =
+        std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
   }
   return settings;
 }
@@ -237,11 +242,13 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   if (!AllOfKnownType(group.joints) || !impl_->AcceptSettings()) return false;
   FastGroup& fast = impl_->fast;
   {
-    const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kRead});
+    const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
     Options options = impl_->options;
     // what is swept in double precision is not rounded to floats before
-    if (!SweepsInFloats(ForGroup(impl_->settings, info, 0))) options.contacts = ContactForm::kRows;
-    fast.Read(group, info, LimitsOf(impl_->settings, group.joints), options);
+    if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0)) == Path::kReference)
+      options.contacts = ContactForm::kRows;
+    fast.Read(group, info, LimitsOf(ByIterations(impl_->settings, impl_->options), group.joints),
+              options);
   }
   if (fast.problem().bodies.empty()) {
     fast.Forget();
@@ -253,7 +260,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   }
   const bool recording = impl_->BeginRecording(fast.problem(), fast.impulses());
   const Clock::time_point built = Clock::now();
-  Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
+  Settings settings = ForGroup(impl_->settings, impl_->options, info, fast.most_sweeps());
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
@@ -262,7 +269,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
 
   const Clock::time_point solved = Clock::now();
   if (impl_->solved_fast) {
-    const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kWrite});
+    const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kWrite});
     if (impl_->options.geometric_stiffness) fast.Learn(info, impl_->report);
     fast.Write(info);
     impl_->write_time = Clock::now() - solved;
@@ -294,7 +301,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
                        &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
                        &m_tmpSolverContactRollingFrictionConstraintPool};
   const std::span joints{constraints, static_cast<size_t>(num_constraints)};
-  impl_->rows.Read(pools, info, LimitsOf(impl_->settings, joints));
+  impl_->rows.Read(pools, info, LimitsOf(ByIterations(impl_->settings, impl_->options), joints));
   if (m_tmpSolverBodyPool.size() == 0) {
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
@@ -308,8 +315,9 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer);
   }
-  Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
-  if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;
+  Settings settings =
+      ForGroup(impl_->settings, impl_->options, info, m_maxOverrideNumSolverIterations);
+  if (SweepsAsBullet(settings)) settings.tuning.lifted_friction = detail::LiftedFriction::kHold;
   const bool recording =
       impl_->BeginRecording(impl_->rows.problem(), {.rows = impl_->rows.impulses()});
   impl_->SetTimeLeft(&settings.budget);

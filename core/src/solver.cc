@@ -28,11 +28,11 @@ StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
 bool InBlocks(const ContactProblem& problem, const Settings& settings) {
   // joints and manifolds become blocks with the step length of Gauss-Seidel only
   const bool rows_only = problem.joints.empty() && problem.manifolds.empty();
-  return (rows_only || OmegaOf(settings) == 1) && SweepsInFloats(settings);
+  return (rows_only || OmegaOf(settings) == 1) && PathOf(settings) == Path::kFast;
 }
 
 BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
-  if (settings.replay != nullptr) return BudgetMeter(*settings.replay, prices);
+  if (settings.tuning.replay != nullptr) return BudgetMeter(*settings.tuning.replay, prices);
   return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices);
 }
 
@@ -79,13 +79,12 @@ void SumUp(Report* report) {
 
 }  // namespace
 
-bool SweepsInFloats(const Settings& settings) {
+Path PathOf(const Settings& settings) {
   // below this, floats cannot tell whether a row is close enough to its law [m/s]
   constexpr double kFinestTolerance = 1e-5;
-  if (settings.order == SweepOrder::kAutomatic) {
-    return settings.tolerance == 0 || settings.tolerance >= kFinestTolerance;
-  }
-  return settings.order == SweepOrder::kColoured;
+  if (settings.path != Path::kAuto) return settings.path;
+  const bool fine = settings.tolerance > 0 && settings.tolerance < kFinestTolerance;
+  return fine ? Path::kReference : Path::kFast;
 }
 
 namespace {
@@ -151,7 +150,8 @@ struct Solver::Impl {
   static constexpr WorkPrices kRowPrices = {
       .sweep_ns = 20, .step_ns = 20, .finish_ns = 30, .least_step_ns = 8, .most_step_ns = 40};
 
-  Settings settings;
+  Settings user_settings;
+  Settings settings;  ///< those of the Solve() that runs
   WorkPrices block_prices, row_prices = kRowPrices;
   std::unique_ptr<BlockSolver> blocks;
 };
@@ -214,14 +214,14 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
 }
 
 Solver::Solver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
-  impl_->settings = settings;
+  impl_->user_settings = settings;
 }
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
-Settings& Solver::settings() { return impl_->settings; }
-const Settings& Solver::settings() const { return impl_->settings; }
+Settings& Solver::settings() { return impl_->user_settings; }
+const Settings& Solver::settings() const { return impl_->user_settings; }
 
 void Solver::Reset() { impl_->Forget(); }
 
@@ -252,7 +252,9 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   report->island_of = std::move(island_of);
   report->replay = std::move(replay);
 
-  if (!Accept(settings, report)) return;
+  if (!Accept(user_settings, report)) return;
+  settings = user_settings;
+  if (!settings.steps) settings.k_sm = 0;
   const bool sizes = HasValidSizes(problem, impulses);
   if (problem.bodies.empty() || !sizes) {
     report->status = Validate(problem, impulses).status;
@@ -282,6 +284,7 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
       return;
     }
   }
+  report->path = in_blocks ? Path::kFast : Path::kReference;
   meter.ChargeFinish();
   SumUp(report);
   report->work = meter.work();

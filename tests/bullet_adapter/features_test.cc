@@ -226,7 +226,7 @@ TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
 // A joint with a lever of 1e-6 m that is to move by 1e35 m/s: spins of 1e41 rad/s are numbers to
 // the solver and to Bullet in double precision, not to Bullet in floats.
 TEST(Features, AMotionThatBulletCannotHoldIsAnOverflow) {
-  bullet::ConstraintSolver solver({.order = SweepOrder::kForward});
+  bullet::ConstraintSolver solver({.path = Path::kReference});
   World world(&solver);
   btPoint2PointConstraint* const joint = HangBox(&world);
   joint->getRigidBodyA().setLinearFactor({0, 0, 0});
@@ -288,6 +288,33 @@ TEST(Features, ABadSettingIsNamed) {
   }
 }
 
+/// Sweeps of the first substep of a stack of three boxes.
+int SweepsOf(const Settings& settings, bullet::Effort effort) {
+  bullet::ConstraintSolver solver(settings, {.effort = effort});
+  World world(&solver);
+  world.AddGround(10);
+  for (int i = 0; i < 3; ++i) {
+    world.AddBox(btVector3(1, 1, 1) / 2,
+                 {.mass = 1, .pose = At(0, btScalar(0.49 + i), 0), .surface = {}});
+  }
+  world.solver_info().m_numIterations = 7;
+  world.Step();
+  return solver.report().sweeps;
+}
+
+TEST(Features, EffortSaysWhoseNumbersAreRead) {
+  Settings few{.steps = false, .max_sweeps = 3, .tolerance = 0};
+  EXPECT_GE(SweepsOf(few, bullet::Effort::kAuto), 7);
+  EXPECT_GE(SweepsOf(few, bullet::Effort::kIterations), 7);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kSettings), 3);
+  few.budget = Budget::Work(1'000'000'000);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kAuto), 3);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kSettings), 3);
+  EXPECT_GE(SweepsOf(few, bullet::Effort::kIterations), 7);
+  few.budget = Budget::Work(1);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kIterations), 1);  // Tuning::min_sweeps
+}
+
 TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
   bullet::ConstraintSolver solver(Settings{.budget = Budget::Time(std::chrono::nanoseconds(0))});
   World world(&solver);
@@ -296,7 +323,7 @@ TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
                {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
   world.Step();
   EXPECT_EQ(solver.report().stop, StopReason::kTimeSpent);
-  EXPECT_EQ(solver.report().sweeps, 1);  // Settings::min_sweeps
+  EXPECT_EQ(solver.report().sweeps, 1);  // Tuning::min_sweeps
 }
 
 TEST(Features, ABudgetOfAllTheTimeThereIsEndsNothing) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-
 #include "cairn/detail/cpp20.h"
 
 #include <chrono>
@@ -8,9 +7,8 @@
 
 namespace cairn {
 
-/// What one Solve() may cost. The state is a valid, feasible answer after every block of rows, so
-/// a budget decides how good the answer is, never whether there is one. Settings::min_sweeps are
-/// made in any case.
+/// What one Solve() may cost. The state is a valid, feasible answer after every block of rows: a
+/// budget decides how good the answer is. Tuning::min_sweeps are made in any case.
 class Budget {
  public:
   enum class Kind { kUnlimited, kTime, kWork };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-
 #include "cairn/detail/cpp20.h"
 
 #include <memory>
@@ -12,9 +11,8 @@
 
 namespace cairn {
 
-/// Projected Gauss-Seidel with subspace minimisation, after [1] (contact_problem.h). Our
-/// differences from the paper: the reduced system is solved in body space with a proximal term,
-/// friction is part of it, sweeps follow each step, and a step that does not pay is undone.
+/// Projected Gauss-Seidel with subspace minimisation, after [1] (contact_problem.h);
+/// docs/solver.md has our differences from the paper.
 ///
 /// Different solvers may run at the same time, one solver may not. It keeps what it learnt about an
 /// island from frame to frame (see Body::id), never the problem.
@@ -32,8 +30,7 @@ class Solver {
   /// @param[in,out] impulses  one per row and one per point of contact: the start (a warm start, or
   ///                          zeros; brought inside the bounds first) and the result.
   /// @param[out] velocities   one per body: velocities at the end of the step.
-  /// Bad input: Report::status says what, Report::bad_row, bad_body, bad_manifold or bad_joint
-  /// where, nothing is written.
+  /// Bad input: the report says what and where (see Describe()), nothing is written.
   [[nodiscard]] Report Solve(const ContactProblem& problem, const Impulses& impulses,
                              std::span<Velocity> velocities);
   /// The same into a report of an earlier call, whose memory is used again. Once a problem has been

@@ -259,13 +259,14 @@ void BlockCycle::Judge(bool seen) {
   const Plan& plan = frame_->plan();
   for (int i = 0; i < static_cast<int>(islands_.size()) && seen; ++i) {
     if (!Open(i)) continue;
-    if (Largest(states_[i].seen) <= settings_->min_progress) Stop(i, StopReason::kStationary);
+    if (Largest(states_[i].seen) <= settings_->tuning.min_progress)
+      Stop(i, StopReason::kStationary);
   }
   if (seen && settings_->tolerance > 0) JudgeNear();
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!Open(i)) continue;
     const int sweeps = made_[plan.islands()[i].group].sweeps;
-    if (meter_->spent() && sweeps >= settings_->min_sweeps) {
+    if (meter_->spent() && sweeps >= settings_->tuning.min_sweeps) {
       Stop(i, meter_->stop_reason());
     } else if (sweeps >= MostSweeps(i)) {
       Stop(i, StopReason::kSweepLimit);

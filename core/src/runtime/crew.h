@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "cairn/detail/spans.h"
 #include "cairn/executor.h"
-#include "cairn/spans.h"
 
 namespace cairn {
 

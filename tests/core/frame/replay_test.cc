@@ -72,7 +72,7 @@ TEST(BlockWork, BelowTheSweepsThatAreMadeInAnyCaseMakesThose) {
     const Solution expected = test::Solve(Coloured(sweeps), scene);
     for (const Budget& nothing : {Budget::Work(0), Budget::Time(microseconds(0))}) {
       Settings settings = Within(Coloured(1000), nothing);
-      settings.min_sweeps = sweeps;
+      settings.tuning.min_sweeps = sweeps;
       const Solution s = test::Solve(settings, scene);
       EXPECT_TRUE(test::SameBits(s, expected));
       EXPECT_EQ(s.report.sweeps, sweeps);
@@ -136,7 +136,7 @@ struct Rerun {
 
   void Expect(const test::Frame& frame, const Solution& timed) {
     for (Solver& solver : solvers) {
-      solver.settings().replay = &timed.report.replay;
+      solver.settings().tuning.replay = &timed.report.replay;
       const Solution again = test::Solve(&solver, frame.scene, frame.start);
       EXPECT_TRUE(test::SameBits(again, timed));
       EXPECT_EQ(again.report.work, timed.report.work);
@@ -233,7 +233,7 @@ TEST(Replay, EndsAfterTheSweepThatTheClockEndedAfter) {
       const Solution expected = test::Solve(Coloured(sweeps), scene);
       const Replay replay{.work = expected.report.work, .fits = {}};
       Settings settings = Coloured(1000);
-      settings.replay = &replay;
+      settings.tuning.replay = &replay;
       const Solution s = test::Solve(settings, scene);
       EXPECT_TRUE(test::SameBits(s, expected));
       EXPECT_EQ(s.report.work, expected.report.work);
@@ -249,7 +249,7 @@ TEST(Replay, OfATimeThatNeverEndsIsNone) {
   const Solution timed = test::Solve(settings, scene);
   EXPECT_EQ(timed.report.replay, Replay{});
   const Replay replay;
-  settings.replay = &replay;
+  settings.tuning.replay = &replay;
   const Solution again = test::Solve(settings, scene);
   EXPECT_TRUE(test::SameBits(timed, again));
   EXPECT_EQ(again.report.stop, StopReason::kSweepLimit);
@@ -259,7 +259,7 @@ TEST(Replay, OfNegativeWorkIsRefused) {
   for (const std::int64_t work : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
     const Replay replay{.work = work, .fits = {}};
     Settings settings = Coloured(10);
-    settings.replay = &replay;
+    settings.tuning.replay = &replay;
     const Scene scene = test::Wall(3, 3);
     const std::vector<double> start(scene.rows.size(), 0.5);
     const Solution s = test::Solve(settings, scene, start);
@@ -278,7 +278,7 @@ TEST(Replay, WithAnswersMissingTakesNoMoreSteps) {
   for (size_t size = timed.report.replay.fits.size(); size-- > 0;) {
     Replay replay = timed.report.replay;
     replay.fits.resize(size);
-    settings.replay = &replay;
+    settings.tuning.replay = &replay;
     const Solution s = test::Solve(settings, scene);
     EXPECT_TRUE(s.report.ok());
     EXPECT_EQ(s.report.stop, StopReason::kSweepLimit);

@@ -272,28 +272,29 @@ TEST(Validate, RefusesEverySettingOutOfItsRange) {
     EXPECT_GT(report.elapsed.count(), 0);
   };
   refuse("method", [](Settings* s) { s->method = static_cast<Method>(3); });
-  refuse("order", [](Settings* s) { s->order = static_cast<SweepOrder>(5); });
+  refuse("path", [](Settings* s) { s->path = static_cast<Path>(3); });
   refuse("k_gs", [](Settings* s) { s->k_gs = 0; });
   refuse("k_sm", [](Settings* s) { s->k_sm = -1; });
-  refuse("min_sweeps", [](Settings* s) { s->min_sweeps = -1; });
+  refuse("tuning.min_sweeps", [](Settings* s) { s->tuning.min_sweeps = -1; });
   refuse("max_sweeps", [](Settings* s) { s->max_sweeps = -1; });
   for (double bad : {-1e-300, kNan}) {
     refuse("tolerance", [&](Settings* s) { s->tolerance = bad; });
-    refuse("min_progress", [&](Settings* s) { s->min_progress = bad; });
+    refuse("tuning.min_progress", [&](Settings* s) { s->tuning.min_progress = bad; });
   }
   refuse("budget", [](Settings* s) { s->budget = Budget::Time(std::chrono::nanoseconds(-1)); });
   refuse("budget", [](Settings* s) { s->budget = Budget::Work(-1); });
   for (int bad : {-1, 0, 1025}) refuse("threads", [&](Settings* s) { s->threads = bad; });
-  for (double bad : {0.0, 2.0, -1.0, kNan}) refuse("omega", [&](Settings* s) { s->omega = bad; });
-  refuse("lifted_friction",
-         [](Settings* s) { s->lifted_friction = static_cast<LiftedFriction>(2); });
+  for (double bad : {0.0, 2.0, -1.0, kNan})
+    refuse("tuning.omega", [&](Settings* s) { s->tuning.omega = bad; });
+  refuse("tuning.lifted_friction",
+         [](Settings* s) { s->tuning.lifted_friction = static_cast<detail::LiftedFriction>(2); });
   refuse("step_policy", [](Settings* s) { s->step_policy = static_cast<StepPolicy>(-1); });
   for (double bad : {0.99e-8, 1.01, kNan})
-    refuse("proximal", [&](Settings* s) { s->proximal = bad; });
+    refuse("tuning.proximal", [&](Settings* s) { s->tuning.proximal = bad; });
   for (double bad : {0.99e-12, 1.01, kNan}) {
     refuse("proximal_joints", [&](Settings* s) { s->proximal_joints = bad; });
   }
-  refuse("refinements", [](Settings* s) { s->refinements = 0; });
+  refuse("tuning.refinements", [](Settings* s) { s->tuning.refinements = 0; });
 }
 
 TEST(Validate, AcceptsTheEndsOfEveryRange) {
@@ -303,16 +304,12 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
                        .max_sweeps = 0,
                        .tolerance = 0,
                        .budget = Budget::Work(0),
-                       .omega = 1e-300,
-                       .proximal = 1e-8,
                        .proximal_joints = 1e-12,
-                       .refinements = 1};
+                       .tuning = {.omega = 1e-300, .proximal = 1e-8, .refinements = 1}};
   EXPECT_EQ(FindBadSetting(least).name, nullptr);
   const Settings most{.tolerance = kInfinity,
-                      .min_progress = kInfinity,
-                      .omega = 1.999999,
-                      .proximal = 1,
-                      .proximal_joints = 1};
+                      .proximal_joints = 1,
+                      .tuning = {.min_progress = kInfinity, .omega = 1.999999, .proximal = 1}};
   EXPECT_EQ(FindBadSetting(most).name, nullptr);
   EXPECT_EQ(FindBadSetting(Settings{}).name, nullptr);
 }

@@ -171,7 +171,8 @@ TEST(Budget, OfNothingGivesTheProjectedWarmStart) {
   const Eigen::VectorXd v = dense.free + dense.inverse_mass * (dense.J.transpose() * expected);
   for (const Budget& nothing : {Budget::Work(0), Budget::Time(nanoseconds(0))}) {
     const Solution s = test::Solve(
-        Within({.method = Method::kPgs, .order = SweepOrder::kForward, .min_sweeps = 0}, nothing),
+        Within({.method = Method::kPgs, .path = Path::kReference, .tuning = {.min_sweeps = 0}},
+               nothing),
         scene, start);
     EXPECT_EQ(test::ToVector(s.x), expected);
     EXPECT_LT((test::Flatten(s.v) - v).cwiseAbs().maxCoeff(), 1e-12);
@@ -190,7 +191,7 @@ TEST(Budget, OfNothingStillMakesTheSweepsThatAreMadeInAnyCase) {
     const Solution expected = test::Solve(test::PlainSweeps(sweeps), scene);
     for (const Budget& nothing : {Budget::Work(0), Budget::Time(nanoseconds(0))}) {
       Settings settings = Within(test::AlwaysSteps(100), nothing);
-      settings.min_sweeps = sweeps;
+      settings.tuning.min_sweeps = sweeps;
       const Solution s = test::Solve(settings, scene);
       EXPECT_TRUE(test::SameBits(s, expected)) << sweeps;
       EXPECT_EQ(s.report.sweeps, sweeps);
@@ -202,7 +203,7 @@ TEST(Budget, OfNothingStillMakesTheSweepsThatAreMadeInAnyCase) {
 TEST(Budget, OfNothingMakesNoMoreThanMaxSweeps) {
   const Scene scene = BigPile(8);
   Settings settings = Within(test::PlainSweeps(2), Budget::Work(0));
-  settings.min_sweeps = 5;
+  settings.tuning.min_sweeps = 5;
   EXPECT_EQ(test::Solve(settings, scene).report.sweeps, 2);
 }
 
@@ -310,12 +311,13 @@ TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
 TEST(Budget, EndsAProblemOfAMillionRows) {
   Scene scene = MillionRows();
   const auto start = std::chrono::steady_clock::now();
-  const Report work = test::Solve(Within({.min_sweeps = 0}, Budget::Work(1000)), scene).report;
+  const Report work =
+      test::Solve(Within({.tuning = {.min_sweeps = 0}}, Budget::Work(1000)), scene).report;
   EXPECT_TRUE(work.ok());
   EXPECT_EQ(work.stop, StopReason::kWorkSpent);
   EXPECT_LT(work.work, 1000 + kUnit);
   const Budget millisecond = Budget::Time(std::chrono::milliseconds(1));
-  EXPECT_EQ(test::Solve(Within({.min_sweeps = 0}, millisecond), scene).report.stop,
+  EXPECT_EQ(test::Solve(Within({.tuning = {.min_sweeps = 0}}, millisecond), scene).report.stop,
             StopReason::kTimeSpent);
 
   scene.rows.back().parent = 999'999;

@@ -110,7 +110,7 @@ TEST(NoMemory, LeavesASolverOfBlocksAsNew) {
 }
 
 TEST(NoMemory, LeavesASolverOfRowsAsNew) {
-  FailEverywhere({.order = SweepOrder::kForward, .max_sweeps = 12, .tolerance = 0});
+  FailEverywhere({.path = Path::kReference, .max_sweeps = 12, .tolerance = 0});
 }
 
 TEST(NoMemory, LeavesASolverOfMatricesAsNew) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-
 #include "cairn/detail/cpp20.h"
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
@@ -14,7 +13,7 @@
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
-#include "cairn/recorder.h"
+#include "cairn/detail/recorder.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 
@@ -31,36 +30,23 @@ struct SubstepTimes {
 };
 
 /// Drop-in for btSequentialImpulseConstraintSolver: pass it to a btDiscreteDynamicsWorld, which
-/// does not own it.
-///
-/// Cairn builds the rows, solves and writes back; with Mode::kReference Bullet sets up the rows and
-/// writes back the results. All islands of a substep are solved as one problem, with one budget.
+/// does not own it. All islands of a substep are solved as one problem, with one budget.
 ///
 /// Without a budget (the default) btContactSolverInfo::m_numIterations says how hard to try. Each
 /// island makes that many accelerated sweeps, and a subspace step among them where it does more
 /// than sweeps in its place would and costs no more than all else about the island
 /// (StepPolicy::kWeighed, in place of the default kMeasured). Islands without a step go on for up
 /// to twice as many sweeps, as long as all of it is predicted to stay below two thirds of what
-/// Bullet's iterations take. An island is done when no row is further than 1e-4 m/s or rad/s from
-/// its law. All of that is counted, never timed. Settings::max_sweeps and Settings::tolerance are
-/// not used, m_leastSquaresResidualThreshold is, and per-joint iteration overrides are honoured.
-/// With Settings::k_sm = 0 or Method::kPgs and Mode::kReference this is
-/// Bullet's own iteration, down to friction that keeps its impulse when its contact lifts off
-/// (LiftedFriction::kHold).
-///
-/// With a budget, m_numIterations and overrides are not used: the solver goes on until
-/// Settings::tolerance, Settings::max_sweeps or the budget. A Budget::Time is for the whole
-/// substep, set-up and write-back included.
+/// Bullet's iterations take. All of that is counted, never timed. A Budget::Time is for the whole
+/// substep, set-up and write-back included. Options::effort says whose numbers are read.
 ///
 /// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration, and so is all
 /// while a setting is out of its range. report() says so, complaint() in words, and
 /// btIDebugDraw::reportErrorWarning() of the world's debug drawer is told when the words change.
-/// SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in the same order.
 ///
-/// In Mode::kFast, btManifoldPoint::m_prevRHS of contacts is used, to know the directions of
-/// lateral impulses from one substep to the next, and joints start from the substep before only if
-/// its groups came between prepareSolve() and allSolved(), or were one.
-///
+/// SOLVER_RANDMIZE_ORDER is ignored. In Mode::kFast btManifoldPoint::m_prevRHS of contacts is used,
+/// to know the directions of lateral impulses from one substep to the next, and joints start from
+/// the substep before only if its groups came between prepareSolve() and allSolved(), or were one.
 /// Not thread safe, like its base: one solver per world.
 class ConstraintSolver : public btSequentialImpulseConstraintSolver {
  public:

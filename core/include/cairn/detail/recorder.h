@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-
 #include "cairn/detail/cpp20.h"
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 #include "cairn/report.h"
 
 namespace cairn {

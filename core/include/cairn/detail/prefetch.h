@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-
 #include "cairn/detail/cpp20.h"
 
 #include <cstddef>
