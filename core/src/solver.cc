@@ -255,12 +255,14 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   if (!Accept(user_settings, report)) return;
   settings = user_settings;
   if (!settings.steps) settings.k_sm = 0;
-  const bool sizes = HasValidSizes(problem, impulses);
-  if (problem.bodies.empty() || !sizes) {
-    report->status = Validate(problem, impulses).status;
-    return;
+  if (problem.bodies.empty()) report->status = Status::kEmptyProblem;
+  if (!report->ok()) return;
+  report->bad_setting = FindBadSize(problem, impulses);
+  if (report->bad_setting.name == nullptr && velocities.size() != problem.bodies.size()) {
+    report->bad_setting = {"velocities.size()", static_cast<double>(velocities.size()),
+                           "problem.bodies.size()"};
   }
-  if (velocities.size() != problem.bodies.size()) report->status = Status::kWrongSize;
+  if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
   if (!report->ok()) return;
 
   const Attempt attempt(this);

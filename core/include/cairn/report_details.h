@@ -93,7 +93,7 @@ struct Replay {
   friend bool operator==(const Replay&, const Replay&) = default;
 };
 
-/// A setting that is out of its range, in words for people: "<name> is <value>, must be <range>".
+/// A setting out of its range, or a size that does not fit: "<name> is <value>, must be <range>".
 struct BadSetting {
   const char* name = nullptr;  ///< As in Settings, "threads" say; nullptr: all are in range.
   double value = 0;            ///< Of an enum its number, of a budget nanoseconds or work units.

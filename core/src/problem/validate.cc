@@ -178,16 +178,34 @@ Status ValidateRow(const ContactProblem& problem, int row, double impulse) {
   return std::isfinite(impulse) ? CheckRow(problem, row) : Status::kNotFinite;
 }
 
-bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses) {
-  if (impulses.rows.size() != problem.rows.size()) return false;
-  const bool motions = problem.motions.empty() || problem.motions.size() == problem.bodies.size();
-  const bool twists = impulses.twists.size() == problem.twists.size() &&
-                      (problem.twists.empty() || problem.twists.size() == problem.points.size());
-  const bool joints =
-      problem.joints.empty() || impulses.joint_rows.size() == problem.joint_rows.size();
-  if (!joints || (!problem.joints.empty() && !motions)) return false;
-  return problem.manifolds.empty() ||
-         (motions && twists && impulses.points.size() == problem.points.size());
+BadSetting FindBadSize(const ContactProblem& problem, const Impulses& impulses) {
+  BadSetting bad;
+  const auto check = [&bad](const char* name, size_t size, const char* range, size_t wanted) {
+    if (bad.name == nullptr && size != wanted) bad = {name, static_cast<double>(size), range};
+  };
+  const auto check_or_none = [&check](const char* name, size_t size, const char* range,
+                                      size_t wanted) {
+    if (size != 0) check(name, size, range, wanted);
+  };
+  const bool joints = !problem.joints.empty(), manifolds = !problem.manifolds.empty();
+  check("impulses.rows.size()", impulses.rows.size(), "problem.rows.size()", problem.rows.size());
+  if (joints) {
+    check("impulses.joint_rows.size()", impulses.joint_rows.size(), "problem.joint_rows.size()",
+          problem.joint_rows.size());
+  }
+  if (joints || manifolds) {
+    check_or_none("problem.motions.size()", problem.motions.size(), "0 or problem.bodies.size()",
+                  problem.bodies.size());
+  }
+  if (manifolds) {
+    check("impulses.points.size()", impulses.points.size(), "problem.points.size()",
+          problem.points.size());
+    check_or_none("problem.twists.size()", problem.twists.size(), "0 or problem.points.size()",
+                  problem.points.size());
+    check("impulses.twists.size()", impulses.twists.size(), "problem.twists.size()",
+          problem.twists.size());
+  }
+  return bad;
 }
 
 Status ValidateJoint(const ContactProblem& problem, int index) {
@@ -224,9 +242,10 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
     }
     return false;
   };
-  const bool sizes = HasValidSizes(problem, impulses);
   if (problem.bodies.empty()) report.status = Status::kEmptyProblem;
-  if (report.ok() && !sizes) report.status = Status::kWrongSize;
+  if (!report.ok()) return report;
+  report.bad_setting = FindBadSize(problem, impulses);
+  if (report.bad_setting.name != nullptr) report.status = Status::kWrongSize;
   if (!report.ok()) return report;
 
   // nobody else looks at them

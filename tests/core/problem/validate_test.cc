@@ -250,6 +250,11 @@ TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
     std::vector<Velocity> velocities(bodies, {.linear = {p, p, p}, .angular = {p, p, p}});
     const Report report = solver.Solve(scene.problem(), impulses, velocities);
     EXPECT_EQ(report.status, Status::kWrongSize);
+    const std::string expected =
+        rows != 5
+            ? "impulses.rows.size() is " + std::to_string(rows) + ", must be problem.rows.size()"
+            : "velocities.size() is " + std::to_string(bodies) + ", must be problem.bodies.size()";
+    EXPECT_EQ(Describe(report), expected);
     EXPECT_EQ(report.bad_row, -1);
     EXPECT_EQ(report.bad_body, -1);
     for (double x : impulses) EXPECT_EQ(x, 0.25);
