@@ -1,6 +1,6 @@
 # Installs what was built: libraries, headers, programs, the CMake package and the pkg-config files.
 #
-# Three export sets, one for each component of the package: a user of Core needs no Bullet, and Bullet in
+# Export sets, one for each component of the package: a user of Core needs no Bullet, and Bullet in
 # one precision may be missing.
 include(CMakePackageConfigHelpers)
 set(cairn_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cairn)
@@ -33,7 +33,10 @@ endif()
 
 cairn_install_library(cairn Core)
 cairn_install_pkg_config(cairn)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+cairn_install_library(cairn_lcp Lcp)
+cairn_install_pkg_config(cairn-lcp)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/ ${PROJECT_SOURCE_DIR}/core/lcp/include/
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET cairn_bullet)
   cairn_install_library(cairn_bullet Bullet)
   cairn_install_pkg_config(cairn-bullet)

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 #include "measure/row_recorder.h"
 #include "support/machine/stopwatch.h"
 

@@ -38,7 +38,7 @@ class CairnContestant : public Contestant {
   void Begin(const Effort& effort, btContactSolverInfo* info) override;
   Work work() const override;
   std::string refusal() const override;
-  void RecordSpans(SpanRecorder* recorder) override { solver_.settings().spans = recorder; }
+  void RecordSpans(SpanRecorder* recorder) override { solver_.settings().tuning.spans = recorder; }
   int threads() override { return solver_.settings().threads; }
   void AllowThreads(int threads) override { solver_.settings().threads = threads; }
 

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "cairn/bullet/constraint_solver.h"
-#include "cairn/spans.h"
+#include "cairn/detail/spans.h"
 #include "measure/observed.h"
 
 namespace cairn::cli {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/spans.h"
+#include "cairn/detail/spans.h"
 
 namespace cairn::cli {
 

@@ -56,7 +56,7 @@ struct Lane {
 Settings Under(double budget_ms, const BudgetOptions& options) {
   Settings settings = Sweeps(1000000, options.threads);
   settings.method = options.method;
-  settings.min_sweeps = options.min_sweeps;
+  settings.tuning.min_sweeps = options.min_sweeps;
   settings.budget = Budget::Time(std::chrono::nanoseconds(std::llround(budget_ms * 1e6)));
   return settings;
 }
@@ -86,7 +86,7 @@ std::vector<Lane> SolveAll(const std::vector<ContactFrame>& frames, const Budget
   std::vector<Lane> lanes;
   for (const double budget : options.budgets_ms) lanes.emplace_back(Under(budget, options));
   Settings floor = Under(0, options);
-  floor.min_sweeps = 0;
+  floor.tuning.min_sweeps = 0;
   lanes.emplace_back(floor);
 
   // one round to allocate and to learn prices

@@ -39,8 +39,8 @@ bool CannotFit(const Report& report, int least_sweeps) {
 }
 
 int LeastSweeps(const Settings& settings) {
-  const bool own = settings.min_sweeps != Settings::kByBudget;
-  return own ? settings.min_sweeps : Settings::kLateSweeps;
+  const bool own = settings.tuning.min_sweeps != Tuning::kByBudget;
+  return own ? settings.tuning.min_sweeps : Tuning::kLateSweeps;
 }
 
 /// What came of the substeps of a row of the table.
@@ -77,7 +77,7 @@ class TimedSolver final : public btConstraintSolver {
         on_cpu_(options.clock == BudgetClock::kThreadCpu) {
     Settings& settings = solver_.settings() = options.settings;
     settings.budget = Budget::Time(std::chrono::nanoseconds(std::llround(budget_ms * 1e6)));
-    if (on_cpu_) settings.clock = &cpu_clock_;
+    if (on_cpu_) settings.tuning.clock = &cpu_clock_;
   }
 
   /// Where substeps go from now on; nullptr: nowhere.

@@ -91,7 +91,7 @@ void AddDeadlines(CLI::App* app, DeadlineOptions* options) {
                                                      {"cpu", BudgetClock::kThreadCpu}};
   app->add_option("--clock", options->clock, "That budgets are measured with: wall or cpu")
       ->transform(CLI::CheckedTransformer(clocks));
-  app->add_option("--min-sweeps", options->settings.min_sweeps, "Settings::min_sweeps");
+  app->add_option("--min-sweeps", options->settings.tuning.min_sweeps, "Tuning::min_sweeps");
   app->add_option("--threads", options->settings.threads)->capture_default_str();
 }
 
@@ -212,7 +212,7 @@ Settings Sweeps(int count, int threads) {
   settings.method = Method::kPgs;
   settings.max_sweeps = count;
   settings.tolerance = 0;
-  settings.min_progress = 0;
+  settings.tuning.min_progress = 0;
   settings.threads = threads;
   return settings;
 }

@@ -70,7 +70,7 @@ class Shadow {
   explicit Shadow(const Settings& settings) : solver_(settings) {}
 
   /// Takes down spans from now on.
-  void Record() { solver_.settings().spans = &spans_; }
+  void Record() { solver_.settings().tuning.spans = &spans_; }
 
   /// @param caches  emptied before, unless there are none
   /// @return its time, wall clock [us]

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "cairn/spans.h"
+#include "cairn/detail/spans.h"
 
 namespace cairn::frames {
 

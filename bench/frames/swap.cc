@@ -53,7 +53,7 @@ class Swap {
   Swap()
       : fast_(Sweeps(kSweeps, 1)),
         reference_(Sweeps(kSweeps, 1), {.mode = bullet::Mode::kReference}) {
-    fast_.settings().spans = &spans_;
+    fast_.settings().tuning.spans = &spans_;
   }
 
   void Look(Substep* substep, const btContactSolverInfo& info) {

@@ -8,8 +8,9 @@
 namespace cairn::cli {
 namespace {
 
-int DefaultSweeps(Method method) {
-  const bool ends_by_itself = method == Method::kPgsSm || method == Method::kInteriorPoint;
+int DefaultSweeps(lcp::Method method) {
+  const bool ends_by_itself =
+      method == lcp::Method::kPgsSm || method == lcp::Method::kInteriorPoint;
   return ends_by_itself ? std::numeric_limits<int>::max() : kDefaultMaxSweeps;
 }
 
@@ -21,30 +22,30 @@ Budget BudgetOf(const LcpOptions& options) {
 
 }  // namespace
 
-std::string Name(StopReason reason) {
+std::string Name(lcp::StopReason reason) {
   switch (reason) {
-    case StopReason::kNotStarted:
+    case lcp::StopReason::kNotStarted:
       return "refused";
-    case StopReason::kConverged:
+    case lcp::StopReason::kConverged:
       return "converged";
-    case StopReason::kStationary:
+    case lcp::StopReason::kStationary:
       return "stationary";
-    case StopReason::kStalled:
+    case lcp::StopReason::kStalled:
       return "stalled";
-    case StopReason::kBrokeDown:
+    case lcp::StopReason::kBrokeDown:
       return "broke down";
-    case StopReason::kCancelled:
+    case lcp::StopReason::kCancelled:
       return "cancelled";
-    case StopReason::kSweepLimit:
+    case lcp::StopReason::kSweepLimit:
       return "sweep limit";
-    case StopReason::kTimeSpent:
-    case StopReason::kWorkSpent:
+    case lcp::StopReason::kTimeSpent:
+    case lcp::StopReason::kWorkSpent:
       return "budget spent";
   }
   return "unknown";
 }
 
-Settings SettingsOf(Method method, const LcpOptions& options) {
+lcp::Settings SettingsOf(lcp::Method method, const LcpOptions& options) {
   return {.method = method,
           .order = options.order,
           .k_gs = options.k_gs,
@@ -57,22 +58,20 @@ Settings SettingsOf(Method method, const LcpOptions& options) {
           .active_tolerance = options.active_tolerance};
 }
 
-CairnLcpSolver::CairnLcpSolver(Method method, const LcpOptions& options)
+CairnLcpSolver::CairnLcpSolver(lcp::Method method, const LcpOptions& options)
     : settings_(SettingsOf(method, options)) {}
 
 LcpOutcome CairnLcpSolver::Solve(const BoxedLcp& problem, const Eigen::VectorXd& start,
-                                 const Observer& observer) {
-  Solver solver(settings_);
+                                 const lcp::Observer& observer) {
+  lcp::Solver solver(settings_);
   if (observer) solver.Observe(observer);
   LcpOutcome outcome;
   outcome.x = start;
-  const Report report = solver.Solve(problem, &outcome.x);
+  const lcp::Report report = solver.Solve(problem, &outcome.x);
   outcome.sweeps = report.sweeps;
   outcome.factorisations = report.factorisations;
   outcome.analyses = report.analyses;
   outcome.factor_nonzeros = report.factor_nonzeros;
-  outcome.steps_accepted = report.steps_accepted;
-  outcome.steps_restored = report.steps_restored;
   outcome.phases = report.phases;
   outcome.stop = Name(report.stop);
   if (!report.ok()) outcome.failure = Describe(report.status);

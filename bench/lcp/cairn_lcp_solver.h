@@ -10,21 +10,21 @@ namespace cairn::cli {
 inline constexpr int kDefaultMaxSweeps = 50000;
 
 /// Why a solve ended, fit for a narrow column.
-std::string Name(StopReason reason);
+std::string Name(lcp::StopReason reason);
 
 /// What the options mean to a method.
-Settings SettingsOf(Method method, const LcpOptions& options);
+lcp::Settings SettingsOf(lcp::Method method, const LcpOptions& options);
 
-/// cairn::Solver with one of its methods.
+/// cairn::lcp::Solver with one of its methods.
 class CairnLcpSolver : public LcpSolver {
  public:
-  CairnLcpSolver(Method method, const LcpOptions& options);
+  CairnLcpSolver(lcp::Method method, const LcpOptions& options);
 
   LcpOutcome Solve(const BoxedLcp& problem, const Eigen::VectorXd& start,
-                   const Observer& observer) override;
+                   const lcp::Observer& observer) override;
 
  private:
-  Settings settings_;
+  lcp::Settings settings_;
 };
 
 }  // namespace cairn::cli

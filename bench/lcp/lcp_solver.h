@@ -6,9 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "cairn/boxed_lcp.h"
-#include "cairn/settings.h"
-#include "cairn/solver.h"
+#include "cairn/lcp/solver.h"
+#include "cairn/mixed_lcp.h"
 
 namespace cairn::cli {
 
@@ -18,9 +17,9 @@ struct LcpOptions {
   std::optional<int> max_sweeps;  ///< None: the solver's own limit.
   std::optional<std::chrono::nanoseconds> budget;
   int threads = 1;
-  SweepOrder order = SweepOrder::kAutomatic;
-  int k_gs = Settings{}.k_gs, k_sm = Settings{}.k_sm;
-  double active_tolerance = Settings{}.active_tolerance;
+  lcp::SweepOrder order = lcp::SweepOrder::kAutomatic;
+  int k_gs = lcp::Settings{}.k_gs, k_sm = lcp::Settings{}.k_sm;
+  double active_tolerance = lcp::Settings{}.active_tolerance;
   double omega = 1.5;   ///< Over-relaxation of solvers that have it, in (0, 2).
   bool phases = false;  ///< Say where the time goes, if the solver can.
 };
@@ -32,7 +31,7 @@ struct LcpOutcome {
   int analyses = 0;                  ///< Symbolic factorisations.
   std::int64_t factor_nonzeros = 0;  ///< Entries of the largest factor.
   int steps_accepted = 0, steps_restored = 0;
-  Phases phases;        ///< All 0 unless LcpOptions::phases.
+  lcp::Phases phases;   ///< All 0 unless LcpOptions::phases.
   std::string stop;     ///< Why it ended, a few words: "converged".
   std::string failure;  ///< Why it could not start, or broke down; empty if it did not.
 };
@@ -47,7 +46,7 @@ class LcpSolver {
   /// @param observer  is shown every iterate, if there is one; where it answers false, the solver
   ///                  ends. Its time is subtracted by the caller.
   virtual LcpOutcome Solve(const BoxedLcp& problem, const Eigen::VectorXd& start,
-                           const Observer& observer) = 0;
+                           const lcp::Observer& observer) = 0;
 };
 
 }  // namespace cairn::cli

@@ -7,7 +7,7 @@
 namespace cairn::cli {
 namespace {
 
-template <Method method>
+template <lcp::Method method>
 std::unique_ptr<LcpSolver> MakeCairn(const LcpOptions& options) {
   return std::make_unique<CairnLcpSolver>(method, options);
 }
@@ -21,7 +21,7 @@ std::vector<LcpSolverEntry> Join(std::vector<LcpSolverEntry> first,
 }  // namespace
 
 std::span<const LcpSolverEntry> LcpSolvers() {
-  using enum Method;
+  using enum lcp::Method;
   static const std::vector<LcpSolverEntry> solvers = Join(
       {
           {"pgs", "projected Gauss-Seidel", &MakeCairn<kPgs>},

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/boxed_lcp.h"
+#include "cairn/mixed_lcp.h"
 #include "lcp/siconos_call.h"
 
 namespace cairn::cli {

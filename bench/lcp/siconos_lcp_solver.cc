@@ -25,7 +25,7 @@ std::string Name(int info, SiconosStop stop) {
 }  // namespace
 
 LcpOutcome SiconosLcpSolver::Solve(const BoxedLcp& problem, const Eigen::VectorXd& start,
-                                   const Observer&) {
+                                   const lcp::Observer&) {
   LcpOutcome outcome;
   outcome.x = start.cwiseMax(problem.lo).cwiseMin(problem.hi);
   SiconosForm form;

@@ -21,7 +21,7 @@ class SiconosLcpSolver : public LcpSolver {
       : method_(method), options_(options) {}
 
   LcpOutcome Solve(const BoxedLcp& problem, const Eigen::VectorXd& start,
-                   const Observer& observer) override;
+                   const lcp::Observer& observer) override;
 
  private:
   /// Empty if a problem of that size is welcome.

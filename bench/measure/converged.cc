@@ -22,12 +22,12 @@ constexpr double kProgress = 0.9;
 
 Settings SettingsWith(double proximal, int sweeps) {
   Settings settings = ReferenceSettings();
-  settings.order = SweepOrder::kForward;   // in double precision
+  settings.path = Path::kReference;        // in double precision
   settings.tolerance = kConvergedTo / 10;  // beneath what Measure() has to find
   settings.max_sweeps = sweeps;
   settings.k_gs = sweeps / kStepsInThem;
   settings.step_policy = StepPolicy::kAlways;
-  settings.proximal = proximal;
+  settings.tuning.proximal = proximal;
   // Measured on one frame of the bridge, where neither comes below 1.3e-4 m/s: 1e-8 ends 0.05 m/s
   // away from 200,000 plain sweeps, 1e-4 and 1e-5 end 2e-4 m/s away.
   settings.proximal_joints = 1e-4;

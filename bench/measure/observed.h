@@ -5,7 +5,7 @@
 #include <functional>
 #include <utility>
 
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 
 namespace cairn::bench {
 

@@ -13,7 +13,7 @@ Settings ReferenceSettings() {
   settings.max_sweeps = 20000;
   settings.k_gs = 100;
   settings.k_sm = 3;
-  settings.refinements = 16;
+  settings.tuning.refinements = 16;
   settings.budget = Budget::Work(std::numeric_limits<std::int64_t>::max());
   return settings;
 }

@@ -3,7 +3,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 #include "measure/contact_frame.h"
 
 namespace cairn::bench {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "cairn/whole_file.h"
+#include "cairn/detail/whole_file.h"
 
 namespace cairn::problems {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/boxed_lcp.h"
+#include "cairn/mixed_lcp.h"
 
 namespace cairn::problems {
 

@@ -3,8 +3,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "cairn/boxed_lcp.h"
 #include "cairn/contact_problem.h"
+#include "cairn/mixed_lcp.h"
 
 namespace cairn::bench {
 

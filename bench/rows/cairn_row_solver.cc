@@ -3,9 +3,40 @@
 
 #include <limits>
 
-#include "lcp/cairn_lcp_solver.h"
-
 namespace cairn::cli {
+
+namespace {
+
+/// What the options of matrices mean to a frame; how long it takes is said later.
+Settings SettingsOf(Method method, const LcpOptions& options) {
+  Settings settings;
+  settings.method = method;
+  if (options.order != lcp::SweepOrder::kAutomatic) {
+    const bool coloured = options.order == lcp::SweepOrder::kColoured;
+    settings.path = coloured ? Path::kFast : Path::kReference;
+  }
+  settings.k_gs = options.k_gs;
+  settings.k_sm = options.k_sm;
+  settings.tolerance = options.tolerance;
+  settings.threads = options.threads;
+  settings.tuning.omega = options.omega;
+  return settings;
+}
+
+/// Why a solve ended, fit for a narrow column.
+std::string Name(StopReason reason) {
+  switch (reason) {
+    case StopReason::kNotStarted:
+      return "refused";
+    case StopReason::kTimeSpent:
+    case StopReason::kWorkSpent:
+      return "budget spent";
+    default:
+      return std::string(Describe(reason));
+  }
+}
+
+}  // namespace
 
 CairnRowSolver::CairnRowSolver(Method method, const LcpOptions& options)
     : solver_(SettingsOf(method, options)) {}
@@ -24,7 +55,7 @@ std::string CairnRowSolver::Prepare(const RowProblem& problem) {
 void CairnRowSolver::IterateUntil(const RowLimit& limit) {
   solver_.settings().max_sweeps = limit.iterations.value_or(std::numeric_limits<int>::max());
   solver_.settings().budget = limit.time ? Budget::Time(*limit.time) : Budget::Unlimited();
-  solver_.settings().clock = limit.clock;
+  solver_.settings().tuning.clock = limit.clock;
   solver_.Solve(problem_->frame.problem(), impulses(), velocities_, &report_);
 }
 

@@ -39,13 +39,13 @@ void IpmRowSolver::IterateUntil(const RowLimit& limit) {
   options.tolerance = kTolerance;
   options.max_sweeps.reset();
   options.budget = limit.time;
-  Observer observer;
+  lcp::Observer observer;
   if (limit.iterations) {
-    observer = [&limit](const Iterate& iterate) {
+    observer = [&limit](const lcp::Iterate& iterate) {
       return iterate.factorisations < *limit.iterations;
     };
   }
-  outcome_ = CairnLcpSolver(Method::kInteriorPoint, options).Solve(boxed_, start_, observer);
+  outcome_ = CairnLcpSolver(lcp::Method::kInteriorPoint, options).Solve(boxed_, start_, observer);
 }
 
 RowOutcome IpmRowSolver::Result() {

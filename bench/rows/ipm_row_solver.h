@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cairn/boxed_lcp.h"
+#include "cairn/mixed_lcp.h"
 #include "rows/row_solver.h"
 
 namespace cairn::cli {

@@ -24,9 +24,9 @@ int LiftLimits(Recording* recording) {
     least = std::min(least, *limit);
     *limit = kNoLimit;
   };
-  for (Row& row : recording->rows) lift(&row.max_sweeps);
-  for (Joint& joint : recording->joints) lift(&joint.max_sweeps);
-  for (Manifold& manifold : recording->manifolds) lift(&manifold.max_sweeps);
+  for (Row& row : recording->rows) lift(&row.host.max_sweeps);
+  for (Joint& joint : recording->joints) lift(&joint.host.max_sweeps);
+  for (Manifold& manifold : recording->manifolds) lift(&manifold.host.max_sweeps);
   return least == kNoLimit ? 0 : least;
 }
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 
 namespace cairn::cli {
 

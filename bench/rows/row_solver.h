@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/budget.h"
+#include "cairn/tuning.h"
 #include "lcp/lcp_solver.h"
 #include "rows/row_problem.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/recorder.h"
+#include "cairn/detail/recorder.h"
 #include "run/options.h"
 
 namespace cairn::cli {

@@ -24,7 +24,7 @@ PairRun::PairRun(const SolveOptions& options, const LcpSolverEntry& entry, Solve
 }
 
 void PairRun::Watch(const Problem& problem, const Yardstick& yardstick,
-                    const std::function<void(const Iterate&)>& show) {
+                    const std::function<void(const lcp::Iterate&)>& show) {
   // The clock of a budget is kept here: the solver's own would run on while we look.
   LcpOptions unlimited = options_.solver;
   unlimited.budget.reset();
@@ -35,7 +35,7 @@ void PairRun::Watch(const Problem& problem, const Yardstick& yardstick,
   Trace trace(std::move(setup), options_.errors);
   trace.Begin(start.x, start.time);
   const LcpOutcome outcome = solver->Solve(
-      problem.lcp, start.x, [&trace](const Iterate& iterate) { return trace.Look(iterate); });
+      problem.lcp, start.x, [&trace](const lcp::Iterate& iterate) { return trace.Look(iterate); });
   trace.End(outcome);
   result_.levels = trace.TakeLevels();
   result_.history = trace.TakeHistory();

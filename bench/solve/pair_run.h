@@ -20,7 +20,7 @@ class PairRun {
   /// Takes the history of a single problem.
   /// @param show  is called with every iterate, for progress
   void Watch(const problems::Problem& problem, const Yardstick& yardstick,
-             const std::function<void(const Iterate&)>& show);
+             const std::function<void(const lcp::Iterate&)>& show);
 
   /// Solves from the first problem to the last. The time of each repetition is kept, and the rest
   /// of the last one.

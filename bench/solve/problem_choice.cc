@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 
+#include "cairn/lcp/solver.h"
 #include "problems/problem_folder.h"
 #include "rigid/rigid_list.h"
 #include "support/command_line.h"
@@ -154,7 +155,7 @@ class Chooser {
   void AddFolder(const fs::path& folder) {
     if (!seen_.insert(fs::weakly_canonical(folder).string()).second) return;
     auto problem = std::make_shared<Problem>(problems::ReadProblemFolder(folder));
-    const Report report = Validate(problem->lcp);
+    const lcp::Report report = Validate(problem->lcp);
     if (!report.ok()) {
       const std::string row = report.bad_row < 0 ? "" : fmt::format(", row {}", report.bad_row + 1);
       throw Failure(kBadInput,

@@ -85,7 +85,7 @@ class Run {
     PairRun run(options_, entry, clock_);
     const Problem& problem = first->current();
     if (yardstick.truth() != Yardstick::Truth::kNone) {
-      run.Watch(problem, yardstick, [&](const Iterate& iterate) {
+      run.Watch(problem, yardstick, [&](const lcp::Iterate& iterate) {
         progress_.Show(fmt::format("{}: {}, {} sweeps, {} factorisations", where_, entry.name,
                                    iterate.sweeps, iterate.factorisations));
       });

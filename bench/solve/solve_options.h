@@ -39,6 +39,6 @@ struct SolveOptions {
 
 /// The word a user types for it.
 const char* Name(StartRule start);
-const char* Name(SweepOrder order);
+const char* Name(lcp::SweepOrder order);
 
 }  // namespace cairn::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/boxed_lcp.h"
+#include "cairn/mixed_lcp.h"
 #include "solve/solve_options.h"
 #include "solve/yardstick.h"
 #include "support/machine/run_context.h"
@@ -56,7 +56,7 @@ struct LcpSolverResult {
   /// Of the finest grid, and summed over a march.
   std::int64_t sweeps = 0, factorisations = 0, analyses = 0, steps_accepted = 0, steps_restored = 0;
   std::int64_t factor_nonzeros = 0;  ///< Of the largest factor.
-  Phases phases;                     ///< Of the finest grid, summed over a march.
+  lcp::Phases phases;                ///< Of the finest grid, summed over a march.
   /// Of that problem of the march where `relative` is largest. Of a recorded frame: `max` [m/s] and
   /// `energy` [sqrt(J)], the rest NaN or 0.
   LcpResidual residual;

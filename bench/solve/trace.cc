@@ -22,7 +22,7 @@ void Trace::Begin(const Eigen::VectorXd& start, double time) {
   begin_ = Now(setup_.clock) - time;
 }
 
-bool Trace::Look(const Iterate& iterate) {
+bool Trace::Look(const lcp::Iterate& iterate) {
   const double entry = Now(setup_.clock);
   const double time = entry - begin_ - spent_;
   // Some solvers show the start too, which Begin() has recorded.
@@ -43,7 +43,7 @@ bool Trace::IsLast(const HistoryPoint& point) const {
          history_.back().error == point.error;
 }
 
-void Trace::Record(const Iterate& iterate, double time, Keep keep) {
+void Trace::Record(const lcp::Iterate& iterate, double time, Keep keep) {
   HistoryPoint point{.time = time,
                      .sweeps = iterate.sweeps,
                      .factorisations = iterate.factorisations,

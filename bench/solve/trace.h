@@ -23,7 +23,7 @@ class Trace {
     SolverClock clock;
     std::optional<double> budget;  ///< Time after which the solver is told to end [ms].
     /// Called with every iterate, to show progress. May be empty.
-    std::function<void(const Iterate&)> show;
+    std::function<void(const lcp::Iterate&)> show;
   };
   Trace(Setup setup, std::span<const double> levels);
 
@@ -31,7 +31,7 @@ class Trace {
   /// @param time  spent before, on coarser grids [ms]
   void Begin(const Eigen::VectorXd& start, double time);
   /// False once the budget is spent.
-  bool Look(const Iterate& iterate);
+  bool Look(const lcp::Iterate& iterate);
   /// Adds what the solver returned, which need not be its last iterate.
   void End(const LcpOutcome& outcome);
 
@@ -40,7 +40,7 @@ class Trace {
 
  private:
   enum class Keep { kIfDue, kAlways };
-  void Record(const Iterate& iterate, double time, Keep keep);
+  void Record(const lcp::Iterate& iterate, double time, Keep keep);
   /// The history ends with the same iterate.
   bool IsLast(const HistoryPoint& point) const;
 

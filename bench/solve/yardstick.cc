@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/solver.h"
+#include "cairn/lcp/solver.h"
 #include "support/statistics.h"
 
 namespace cairn::cli {
@@ -36,18 +36,19 @@ Best FindBest(const problems::Problem& problem) {
   best.residual = Measure(problem.lcp, best.x).relative;
   struct Stage {
     double above;  ///< Tried if the best residual is larger.
-    Settings settings;
+    lcp::Settings settings;
   };
   const Stage stages[] = {
-      {0, {.method = Method::kPgsSm, .tolerance = kBestTolerance}},
-      {kBestTolerance, {.method = Method::kInteriorPoint, .tolerance = kBestTolerance}},
+      {0, {.method = lcp::Method::kPgsSm, .tolerance = kBestTolerance}},
+      {kBestTolerance, {.method = lcp::Method::kInteriorPoint, .tolerance = kBestTolerance}},
       {kBestTolerance,
-       {.method = Method::kPgs, .max_sweeps = kRefiningSweeps, .tolerance = kBestTolerance}},
-      {1e-8, {.method = Method::kPgs, .max_sweeps = kManySweeps, .tolerance = kBestTolerance}}};
+       {.method = lcp::Method::kPgs, .max_sweeps = kRefiningSweeps, .tolerance = kBestTolerance}},
+      {1e-8,
+       {.method = lcp::Method::kPgs, .max_sweeps = kManySweeps, .tolerance = kBestTolerance}}};
   for (const Stage& stage : stages) {
     if (best.residual <= stage.above) break;
     Eigen::VectorXd x = best.x;
-    if (!Solver(stage.settings).Solve(problem.lcp, &x).ok()) continue;
+    if (!lcp::Solver(stage.settings).Solve(problem.lcp, &x).ok()) continue;
     const double residual = Measure(problem.lcp, x).relative;
     if (residual < best.residual) best = {x, residual};
   }

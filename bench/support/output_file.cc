@@ -11,7 +11,7 @@
 #include <span>
 #include <system_error>
 
-#include "cairn/whole_file.h"
+#include "cairn/detail/whole_file.h"
 #include "support/failure.h"
 
 namespace cairn::cli {

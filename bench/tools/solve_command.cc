@@ -59,11 +59,12 @@ cannot be used.)";
 
 constexpr std::pair<StartRule, const char*> kStarts[] = {
     {StartRule::kZero, "zero"}, {StartRule::kWarm, "warm"}, {StartRule::kNested, "nested"}};
-constexpr std::pair<SweepOrder, const char*> kOrders[] = {{SweepOrder::kAutomatic, "automatic"},
-                                                          {SweepOrder::kForward, "forward"},
-                                                          {SweepOrder::kReverse, "reverse"},
-                                                          {SweepOrder::kSymmetric, "symmetric"},
-                                                          {SweepOrder::kColoured, "coloured"}};
+constexpr std::pair<lcp::SweepOrder, const char*> kOrders[] = {
+    {lcp::SweepOrder::kAutomatic, "automatic"},
+    {lcp::SweepOrder::kForward, "forward"},
+    {lcp::SweepOrder::kReverse, "reverse"},
+    {lcp::SweepOrder::kSymmetric, "symmetric"},
+    {lcp::SweepOrder::kColoured, "coloured"}};
 
 /// The value that goes by a name in a list of pairs.
 template <class Names>
@@ -251,7 +252,7 @@ void AddSolverOptions(CLI::App* solve, SolveWords* words) {
 }  // namespace
 
 const char* Name(StartRule start) { return NameOf(start, kStarts); }
-const char* Name(SweepOrder order) { return NameOf(order, kOrders); }
+const char* Name(lcp::SweepOrder order) { return NameOf(order, kOrders); }
 
 Command AddSolveCommand(CLI::App* app) {
   const auto words = std::make_shared<SolveWords>();

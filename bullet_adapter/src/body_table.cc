@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "cairn/gyroscopic.h"
+#include "cairn/detail/gyroscopic.h"
 #include "conversions.h"
 
 namespace cairn::bullet {

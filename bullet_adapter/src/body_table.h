@@ -10,8 +10,8 @@
 
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
-#include "cairn/prefetch.h"
-#include "cairn/stiffness.h"
+#include "cairn/detail/prefetch.h"
+#include "cairn/detail/stiffness.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

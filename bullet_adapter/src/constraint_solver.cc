@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/bullet/constraint_solver.h"
 
+#include <LinearMath/btIDebugDraw.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
+#include "cairn/detail/spans.h"
 #include "cairn/solver.h"
 #include "fast_group.h"
 
@@ -43,35 +46,39 @@ void SetAside(nanoseconds took, nanoseconds* time) {
   }
 }
 
-bool Unlimited(const Settings& settings) {
+/// Whether Bullet's info says how hard to try, not the settings.
+bool ByIterations(const Settings& settings, const Options& options) {
+  if (options.effort != Effort::kAuto) return options.effort == Effort::kIterations;
   return settings.budget.kind() == Budget::Kind::kUnlimited;
 }
 
 /// Rows have limits of their own only where some joint asks for other iterations than the rest.
-SweepLimits LimitsOf(const Settings& settings, std::span<btTypedConstraint* const> joints) {
+SweepLimits LimitsOf(bool by_iterations, std::span<btTypedConstraint* const> joints) {
   const bool own = std::any_of(joints.begin(), joints.end(), [](const btTypedConstraint* joint) {
     return joint->getOverrideNumSolverIterations() > 0;
   });
-  return own && Unlimited(settings) ? SweepLimits::kBullet : SweepLimits::kNone;
+  return own && by_iterations ? SweepLimits::kBullet : SweepLimits::kNone;
 }
 
 /// Whether the iteration is Bullet's own.
 bool SweepsAsBullet(const Settings& settings) {
   return settings.method == Method::kPgs ||
-         (settings.method == Method::kPgsSm && settings.k_sm == 0);
+         (settings.method == Method::kPgsSm && (settings.k_sm == 0 || !settings.steps));
 }
 
 /// Iteration settings of one group: what the user asked for, and what Bullet's info says.
-Settings ForGroup(const Settings& user, const btContactSolverInfo& info, int max_override) {
+Settings ForGroup(const Settings& user, const Options& options, const btContactSolverInfo& info,
+                  int max_override) {
   Settings settings = user;
-  if (Unlimited(user)) {
+  if (ByIterations(user, options)) {
     settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
     settings.tolerance = 0;
     if (user.step_policy == StepPolicy::kMeasured) {
       settings.step_policy = StepPolicy::kWeighed;
       if (!SweepsAsBullet(user)) settings.tolerance = kGoodEnough;
     }
-    settings.min_progress = std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
+    settings.tuning.min_progress =
+        std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
   }
   return settings;
 }
@@ -105,12 +112,16 @@ struct ConstraintSolver::Impl {
 
   std::unique_ptr<Recorder> recorder = Recorder::FromEnvironment(kSource);
 
+  /// False, and the report says why, if a setting is out of its range.
+  bool AcceptSettings();
+  std::string told;  ///< the last warning
+
   /// Takes a copy of the problem if it is to be recorded, on nobody's budget.
   bool BeginRecording(const ContactProblem& problem, const Impulses& impulses);
 };
 
 nanoseconds ConstraintSolver::Impl::Now() const {
-  if (settings.clock != nullptr) return settings.clock->Now();
+  if (settings.tuning.clock != nullptr) return settings.tuning.clock->Now();
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
@@ -131,6 +142,15 @@ bool ConstraintSolver::Impl::BeginRecording(const ContactProblem& problem,
   return recording;
 }
 
+bool ConstraintSolver::Impl::AcceptSettings() {
+  const BadSetting bad = FindBadSetting(settings);
+  if (bad.name == nullptr) return true;
+  report = {};
+  report.status = Status::kBadSettings;
+  report.bad_setting = bad;
+  return false;
+}
+
 ConstraintSolver::ConstraintSolver(const Settings& settings, const Options& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->settings = settings;
@@ -148,6 +168,18 @@ const Report& ConstraintSolver::report() const { return impl_->report; }
 SubstepTimes ConstraintSolver::times() const { return impl_->times; }
 
 bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
+
+std::string ConstraintSolver::complaint() const {
+  return impl_->report.ok() ? std::string() : Describe(impl_->report);
+}
+
+void ConstraintSolver::Warn(btIDebugDraw* debug_drawer) {
+  std::string complaint = this->complaint();
+  if (complaint == impl_->told) return;
+  impl_->told = std::move(complaint);
+  if (debug_drawer == nullptr || impl_->told.empty()) return;
+  debug_drawer->reportErrorWarning(("cairn: " + impl_->told).c_str());
+}
 
 ContactProblem ConstraintSolver::problem() const {
   return impl_->solved_fast ? impl_->fast.problem() : impl_->rows.problem();
@@ -206,6 +238,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer, dispatcher);
   }
+  Warn(debug_drawer);
   if (impl_->recorder != nullptr) impl_->recorder->NextFrame();
   return result;
 }
@@ -228,25 +261,28 @@ void ConstraintSolver::reset() {
 }
 
 bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
-  if (!AllOfKnownType(group.joints)) return false;
+  if (!AllOfKnownType(group.joints) || !impl_->AcceptSettings()) return false;
   FastGroup& fast = impl_->fast;
   {
-    const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kRead});
+    const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
     Options options = impl_->options;
     // what is swept in double precision is not rounded to floats before
-    if (!SweepsInFloats(ForGroup(impl_->settings, info, 0))) options.contacts = ContactForm::kRows;
-    fast.Read(group, info, LimitsOf(impl_->settings, group.joints), options);
+    if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0)) == Path::kReference)
+      options.contacts = ContactForm::kRows;
+    fast.Read(group, info, LimitsOf(ByIterations(impl_->settings, impl_->options), group.joints),
+              options);
   }
   if (fast.problem().bodies.empty()) {
     fast.Forget();
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
+    impl_->report.elapsed = Passed(impl_->start, impl_->Now());
     impl_->solved_fast = true;
     return true;
   }
   const bool recording = impl_->BeginRecording(fast.problem(), fast.impulses());
   const nanoseconds built = impl_->Now();
-  Settings settings = ForGroup(impl_->settings, info, fast.most_sweeps());
+  Settings settings = ForGroup(impl_->settings, impl_->options, info, fast.most_sweeps());
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
@@ -255,7 +291,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   impl_->solved_fast = impl_->report.ok();
 
   if (impl_->solved_fast) {
-    const SpanClock clock(impl_->settings.spans, 0, {SpanKind::kWrite});
+    const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kWrite});
     if (impl_->options.geometric_stiffness) fast.Learn(info, impl_->report);
     fast.Write(info);
     const nanoseconds write = Passed(solved, impl_->Now());
@@ -288,15 +324,23 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
                        &m_tmpSolverContactConstraintPool, &m_tmpSolverContactFrictionConstraintPool,
                        &m_tmpSolverContactRollingFrictionConstraintPool};
   const std::span joints{constraints, static_cast<size_t>(num_constraints)};
-  impl_->rows.Read(pools, info, LimitsOf(impl_->settings, joints));
+  impl_->rows.Read(pools, info, LimitsOf(ByIterations(impl_->settings, impl_->options), joints));
   if (m_tmpSolverBodyPool.size() == 0) {
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
+    impl_->report.elapsed = Passed(impl_->start, impl_->Now());
     return 0;
   }
 
-  Settings settings = ForGroup(impl_->settings, info, m_maxOverrideNumSolverIterations);
-  if (SweepsAsBullet(settings)) settings.lifted_friction = LiftedFriction::kHold;
+  if (!impl_->AcceptSettings()) {
+    impl_->fell_back = true;
+    return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
+        bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
+        debug_drawer);
+  }
+  Settings settings =
+      ForGroup(impl_->settings, impl_->options, info, m_maxOverrideNumSolverIterations);
+  if (SweepsAsBullet(settings)) settings.tuning.lifted_friction = detail::LiftedFriction::kHold;
   const bool recording =
       impl_->BeginRecording(impl_->rows.problem(), {.rows = impl_->rows.impulses()});
   impl_->SetTimeLeft(&settings.budget);

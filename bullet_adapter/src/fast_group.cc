@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "cairn/prefetch.h"
+#include "cairn/detail/prefetch.h"
 #include "write_back.h"
 
 namespace cairn::bullet {

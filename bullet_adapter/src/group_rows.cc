@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 
 #include <algorithm>
 
@@ -66,7 +66,7 @@ void GroupRows::ReadJoints(const RowPools& pools, const btContactSolverInfo& inf
             .relaxation = Relaxation(1 + source.m_cfm)};
     if (limits == SweepLimits::kBullet) {
       const int own = source.m_overrideNumSolverIterations;
-      law.max_sweeps = own > 0 ? own : info.m_numIterations;
+      law.host.max_sweeps = own > 0 ? own : info.m_numIterations;
     }
     ReadRow(&source, law);
   }
@@ -77,7 +77,7 @@ void GroupRows::ReadContacts(const RowPools& pools, const btContactSolverInfo& i
   const Row unlimited;
   const double relaxation = Relaxation(info.m_sor);
   const int max_sweeps =
-      limits == SweepLimits::kBullet ? info.m_numIterations : unlimited.max_sweeps;
+      limits == SweepLimits::kBullet ? info.m_numIterations : unlimited.host.max_sweeps;
   const bool interleaved = (info.m_solverMode & SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS);
   std::vector<int> row_of_contact(pools.contacts->size());
   const auto read_friction = [&](int i) {
@@ -85,13 +85,14 @@ void GroupRows::ReadContacts(const RowPools& pools, const btContactSolverInfo& i
     ReadRow(&source, {.parent = row_of_contact[source.m_frictionIndex],
                       .friction = std::max<double>(0, source.m_friction),
                       .relaxation = relaxation,
-                      .max_sweeps = max_sweeps});
+                      .host = {.max_sweeps = max_sweeps}});
   };
 
   int friction = 0;
   for (int i = 0; i < pools.contacts->size(); ++i) {
-    row_of_contact[i] = ReadRow(&(*pools.contacts)[i],
-                                {.lo = 0, .relaxation = relaxation, .max_sweeps = max_sweeps});
+    row_of_contact[i] =
+        ReadRow(&(*pools.contacts)[i],
+                {.lo = 0, .relaxation = relaxation, .host = {.max_sweeps = max_sweeps}});
     while (interleaved && friction < pools.frictions->size() &&
            (*pools.frictions)[friction].m_frictionIndex == i) {
       read_friction(friction++);
@@ -107,7 +108,7 @@ void GroupRows::ReadContacts(const RowPools& pools, const btContactSolverInfo& i
                       .hi = most,
                       .parent = row_of_contact[source.m_frictionIndex],
                       .friction = most,
-                      .max_sweeps = max_sweeps});
+                      .host = {.max_sweeps = max_sweeps}});
   }
 }
 

@@ -143,7 +143,7 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
       a, b, motion(party_a.number), motion(party_b.number), party_a.number, party_b.number};
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
-    const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .max_sweeps = max_sweeps};
+    const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .host = {.max_sweeps = max_sweeps}};
     for (const Slot& slot : slots_) AppendRow(ends, law, slot, damping);
   } else {
     result.first_row = static_cast<int>(group_->joint_rows.size());
@@ -210,7 +210,7 @@ void JointRowBuilder::AppendCompact(const Ends& ends, int max_sweeps, btScalar d
             .rows = static_cast<int>(slots_.size()),
             .damping = kTargetsInDouble ? 0 : static_cast<float>(damping),
             .opposite = true,
-            .max_sweeps = max_sweeps});
+            .host = {.max_sweeps = max_sweeps}});
   const bool still =
       !kTargetsInDouble && StandsStill(ends.a, ends.motion_a) && StandsStill(ends.b, ends.motion_b);
   const btScalar inv_mass_a = ends.a.getInvMass(), inv_mass_b = ends.b.getInvMass();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "body_table.h"
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 #include "cairn/bullet/options.h"
 #include "group_problem.h"
 #include "joint_memory.h"

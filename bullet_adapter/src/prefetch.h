@@ -5,7 +5,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include "cairn/bullet/precision.h"
-#include "cairn/prefetch.h"
+#include "cairn/detail/prefetch.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {

@@ -1,7 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/report.h"
 
+#include <array>
+#include <charconv>
+
 namespace cairn {
+namespace {
+
+/// The shortest text that means this number, in any locale.
+std::string Text(double number) {
+  std::array<char, 32> text;
+  const auto [end, error] = std::to_chars(text.begin(), text.end(), number);
+  return {text.begin(), end};
+}
+
+}  // namespace
+
+std::string Describe(const BadSetting& bad) {
+  return std::string(bad.name) + " is " + Text(bad.value) + ", must be " + bad.range;
+}
 
 std::string_view Describe(Status status) {
   switch (status) {
@@ -30,12 +47,6 @@ std::string_view Describe(Status status) {
              "its own";
     case Status::kBadFriction:
       return "a coefficient of friction or restitution is negative";
-    case Status::kBadDiagonal:
-      return "a diagonal entry of the matrix is missing, zero or negative";
-    case Status::kNotSymmetric:
-      return "the matrix is not symmetric";
-    case Status::kNotPositiveDefinite:
-      return "the matrix is not positive definite: no minimum, or none that this method finds";
     case Status::kOverflow:
       return "the numbers are so large, or so far apart, that the result is not finite";
   }
@@ -50,12 +61,8 @@ std::string_view Describe(StopReason reason) {
       return "converged";
     case StopReason::kStationary:
       return "stationary";
-    case StopReason::kStalled:
-      return "stalled at rounding";
     case StopReason::kBrokeDown:
       return "broke down";
-    case StopReason::kCancelled:
-      return "cancelled";
     case StopReason::kSweepLimit:
       return "sweep limit";
     case StopReason::kTimeSpent:
@@ -80,6 +87,20 @@ std::string_view Describe(NoStep reason) {
       return "sweeps faster";
   }
   return "unknown reason";
+}
+
+std::string Describe(const Report& report) {
+  if (report.bad_setting.name != nullptr) return Describe(report.bad_setting);
+  if (report.ok()) return std::string(Describe(report.stop));
+  std::string where;
+  const auto add = [&where](const char* what, int index) {
+    if (index >= 0) where = what + std::to_string(index) + ": ";
+  };
+  add("row ", report.bad_row);
+  add("body ", report.bad_body);
+  add("manifold ", report.bad_manifold);
+  add("joint ", report.bad_joint);
+  return where.append(Describe(report.status));
 }
 
 }  // namespace cairn

@@ -2,13 +2,13 @@
 #include "cairn/solver.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "core/lcp/lcp_solver.h"
 #include "cycle/block_solver.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
@@ -28,13 +28,13 @@ StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
 bool InBlocks(const ContactProblem& problem, const Settings& settings) {
   // joints and manifolds become blocks with the step length of Gauss-Seidel only
   const bool rows_only = problem.joints.empty() && problem.manifolds.empty();
-  return (rows_only || OmegaOf(settings) == 1) && SweepsInFloats(settings);
+  return (rows_only || OmegaOf(settings) == 1) && PathOf(settings) == Path::kFast;
 }
 
 BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
-  if (settings.replay != nullptr) return BudgetMeter(*settings.replay, prices);
+  if (settings.tuning.replay != nullptr) return BudgetMeter(*settings.tuning.replay, prices);
   return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices,
-                     settings.clock);
+                     settings.tuning.clock);
 }
 
 /// Report::bad_row and its like, from one who looked.
@@ -44,6 +44,24 @@ void CopyJudgement(const Report& checked, Report* report) {
   report->bad_body = checked.bad_body;
   report->bad_manifold = checked.bad_manifold;
   report->bad_joint = checked.bad_joint;
+}
+
+/// Wall clock since it was made.
+class StopWatch {
+ public:
+  std::chrono::nanoseconds elapsed() const { return Clock::now() - begin_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Clock::time_point begin_ = Clock::now();
+};
+
+/// False, and the report says why, if a setting is out of its range.
+bool Accept(const Settings& settings, Report* report) {
+  report->bad_setting = FindBadSetting(settings);
+  if (report->bad_setting.name != nullptr) report->status = Status::kBadSettings;
+  return report->ok();
 }
 
 /// Adds up what was done on the islands.
@@ -62,13 +80,12 @@ void SumUp(Report* report) {
 
 }  // namespace
 
-bool SweepsInFloats(const Settings& settings) {
+Path PathOf(const Settings& settings) {
   // below this, floats cannot tell whether a row is close enough to its law [m/s]
   constexpr double kFinestTolerance = 1e-5;
-  if (settings.order == SweepOrder::kAutomatic) {
-    return settings.tolerance == 0 || settings.tolerance >= kFinestTolerance;
-  }
-  return settings.order == SweepOrder::kColoured;
+  if (settings.path != Path::kAuto) return settings.path;
+  const bool fine = settings.tolerance > 0 && settings.tolerance < kFinestTolerance;
+  return fine ? Path::kReference : Path::kFast;
 }
 
 namespace {
@@ -102,7 +119,6 @@ struct Solver::Impl {
    public:
     explicit Attempt(Impl* impl) : impl_(impl) {
       if (impl->blocks == nullptr) impl->blocks = std::make_unique<BlockSolver>();
-      if (impl->lcp == nullptr) impl->lcp = std::make_unique<LcpSolver>();
     }
     ~Attempt() {
       if (std::uncaught_exceptions() > exceptions_) impl_->Forget();
@@ -118,10 +134,12 @@ struct Solver::Impl {
   /// What was learnt. The next Attempt makes it anew.
   void Forget() {
     blocks.reset();
-    lcp.reset();
     block_prices = kBlockPrices;
     row_prices = kRowPrices;
   }
+  /// See Solver::Solve().
+  void Solve(const ContactProblem& problem, const Impulses& impulses,
+             std::span<Velocity> velocities, Report* report);
   /// False, and nothing is written, if the result is not finite.
   bool SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
                      std::span<Velocity> velocities, Report* report);
@@ -137,13 +155,12 @@ struct Solver::Impl {
                                             .most_step_ns = 40,
                                             .unseen_rows = 256};
 
-  Settings settings;
-  Observer observer;
+  Settings user_settings;
+  Settings settings;  ///< those of the Solve() that runs
   static constexpr WorkPrices kBlockPrices = {.unseen_rows = 8192, .can_give_up_steps = true};
 
   WorkPrices block_prices = kBlockPrices, row_prices = kRowPrices;
   std::unique_ptr<BlockSolver> blocks;
-  std::unique_ptr<LcpSolver> lcp;
 };
 bool Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
                                  const Impulses& impulses, std::span<Velocity> velocities,
@@ -204,40 +221,16 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
 }
 
 Solver::Solver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
-  impl_->settings = settings;
+  impl_->user_settings = settings;
 }
 Solver::~Solver() = default;
 Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
-Settings& Solver::settings() { return impl_->settings; }
-const Settings& Solver::settings() const { return impl_->settings; }
+Settings& Solver::settings() { return impl_->user_settings; }
+const Settings& Solver::settings() const { return impl_->user_settings; }
 
 void Solver::Reset() { impl_->Forget(); }
-
-void Solver::Observe(Observer observer) { impl_->observer = std::move(observer); }
-
-Report Solver::Solve(const BoxedLcp& problem, Eigen::VectorXd* x) {
-  const Settings settings = impl_->settings;
-  Report report;
-  report.status = Validate(settings);
-  const Impl::Attempt attempt(impl_.get());
-  return report.ok() ? impl_->lcp->Solve(problem, settings, impl_->observer, x) : report;
-}
-
-Report Solver::Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorXd* v) {
-  Report report = Validate(problem);
-  const bool fit = u->size() == problem.a.size() && v->size() == problem.b.size();
-  if (report.ok() && !fit) report.status = Status::kWrongSize;
-  if (!report.ok()) return report;
-
-  Eigen::VectorXd x(u->size() + v->size());
-  x << *u, *v;
-  report = Solve(ToBoxed(problem), &x);
-  *u = x.head(u->size());
-  *v = x.tail(v->size());
-  return report;
-}
 
 Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                      std::span<Velocity> velocities) {
@@ -248,6 +241,13 @@ Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
 
 void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                    std::span<Velocity> velocities, Report* report) {
+  const StopWatch watch;
+  impl_->Solve(problem, impulses, velocities, report);
+  report->elapsed = watch.elapsed();
+}
+
+void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses,
+                         std::span<Velocity> velocities, Report* report) {
   // all but the memory of an earlier report
   std::vector<IslandReport> islands = std::move(report->islands);
   std::vector<int> island_of = std::move(report->island_of);
@@ -259,47 +259,46 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
   report->island_of = std::move(island_of);
   report->replay = std::move(replay);
 
-  const Settings& settings = impl_->settings;
-  report->status = Validate(settings);
-  if (settings.method == Method::kPgsSmLiteral || settings.method == Method::kInteriorPoint) {
-    report->status = Status::kBadSettings;
-  }
+  if (!Accept(user_settings, report)) return;
+  settings = user_settings;
+  if (!settings.steps) settings.k_sm = 0;
+  if (problem.bodies.empty()) report->status = Status::kEmptyProblem;
   if (!report->ok()) return;
-  const bool sizes = HasValidSizes(problem, impulses);
-  if (problem.bodies.empty() || !sizes) {
-    report->status = Validate(problem, impulses).status;
-    return;
+  report->bad_setting = FindBadSize(problem, impulses);
+  if (report->bad_setting.name == nullptr && velocities.size() != problem.bodies.size()) {
+    report->bad_setting = {"velocities.size()", static_cast<double>(velocities.size()),
+                           "problem.bodies.size()"};
   }
-  if (velocities.size() != problem.bodies.size()) report->status = Status::kWrongSize;
+  if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
   if (!report->ok()) return;
 
-  const Impl::Attempt attempt(impl_.get());
+  const Attempt attempt(this);
   bool in_blocks = InBlocks(problem, settings);
-  WorkPrices* const prices = in_blocks ? &impl_->block_prices : &impl_->row_prices;
+  WorkPrices* const prices = in_blocks ? &block_prices : &row_prices;
   BudgetMeter meter = MeterOf(settings, problem, prices);
   meter.Record(&report->replay);
   if (in_blocks) {
     const PackResult result =
-        impl_->blocks->Solve(problem, settings, &meter, impulses, velocities, report);
+        blocks->Solve(problem, settings, &meter, impulses, velocities, report);
     in_blocks = result == PackResult::kDone;
   }
   if (!in_blocks) {
     CopyJudgement(Validate(problem, impulses), report);
     if (!report->ok()) return;
-    if (!impl_->SolveInDouble(problem, &meter, impulses, velocities, report)) {
+    if (!SolveInDouble(problem, &meter, impulses, velocities, report)) {
       report->islands.clear();
       report->status = Status::kOverflow;
       report->stop = StopReason::kBrokeDown;
-      impl_->blocks->memories().EndFrame();
+      blocks->memories().EndFrame();
       return;
     }
   }
+  report->path = in_blocks ? Path::kFast : Path::kReference;
   SumUp(report);
   report->work = meter.work();
-  report->elapsed = meter.elapsed();
   report->step_predicted = meter.steps_predicted();
   report->step_time = meter.steps_time();
-  impl_->blocks->memories().EndFrame();
+  blocks->memories().EndFrame();
   meter.ChargeFinish();
 }
 

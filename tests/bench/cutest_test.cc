@@ -11,7 +11,7 @@
 #include <limits>
 #include <string>
 
-#include "cairn/boxed_lcp.h"
+#include "cairn/mixed_lcp.h"
 #include "generated.h"
 #include "problems/generators.h"
 #include "problems/grid.h"

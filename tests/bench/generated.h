@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/solver.h"
+#include "cairn/lcp/solver.h"
 #include "problems/problem.h"
 
 namespace cairn::problems {
@@ -17,12 +17,9 @@ inline Problem Generate(const Generator& generator, int size, const std::vector<
 }
 
 inline Eigen::VectorXd Solved(const Problem& problem, const Eigen::VectorXd& start) {
-  Solver solver({.method = Method::kPgsSm,
-                 .max_sweeps = 100000,
-                 .tolerance = 1e-10,
-                 .step_policy = StepPolicy::kAlways});
+  lcp::Solver solver({.max_sweeps = 100000, .tolerance = 1e-10, .always_solve = true});
   Eigen::VectorXd x = start.size() > 0 ? start : Eigen::VectorXd::Zero(problem.lcp.size());
-  const Report report = solver.Solve(problem.lcp, &x);
+  const lcp::Report report = solver.Solve(problem.lcp, &x);
   EXPECT_TRUE(report.ok()) << problem.name << ": " << Describe(report.status);
   EXPECT_LE(report.residual_relative, 1e-10) << problem.name;
   return x;

@@ -55,7 +55,7 @@ TEST(GridGenerators, MakeProblemsThatTheSolverAccepts) {
       for (const int size : {generator.min_size, generator.min_size + 1, 40}) {
         const Problem problem = Generate(generator, size, values);
         SCOPED_TRACE(problem.name);
-        EXPECT_EQ(Validate(problem.lcp).status, Status::kOk);
+        EXPECT_EQ(Validate(problem.lcp).status, lcp::Status::kOk);
         EXPECT_TRUE(problem.lcp.size() == size || problem.lcp.size() == size * size);
         EXPECT_EQ(problem.name.rfind(generator.name + "-" + std::to_string(size), 0), 0u);
         // Exactly, as the energy of a grid of conductances is.

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "cairn/solver.h"
+#include "cairn/lcp/solver.h"
 #include "problems/generators.h"
 #include "problems/options/option_oracles.h"
 
@@ -74,12 +74,12 @@ Priced PairPrice(const Generator& generator, int size, const NamedValues& change
 }
 
 Priced PriceOfCairn(const Generator& generator, int size, const NamedValues& changes) {
-  Solver solver({.method = Method::kPgsSm, .tolerance = 1e-9});
+  lcp::Solver solver({.method = lcp::Method::kPgsSm, .tolerance = 1e-9});
   const auto solve_step = [&solver](const Problem& step) {
     Eigen::VectorXd y = step.start;
-    const Report report = solver.Solve(step.lcp, &y);
+    const lcp::Report report = solver.Solve(step.lcp, &y);
     EXPECT_TRUE(report.ok()) << Describe(report.status);
-    EXPECT_EQ(report.stop, StopReason::kConverged);
+    EXPECT_EQ(report.stop, lcp::StopReason::kConverged);
     return y;
   };
   return MarchWith(solve_step, generator, size, With(generator, changes));

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "cairn/lcp/solver.h"
+
 namespace cairn::problems {
 namespace {
 
@@ -395,7 +397,7 @@ TEST(CollectedProblems, HaveTheWTheySay) {
       continue;
     }
     const Problem problem = ReadProblemFolder(folder);
-    EXPECT_EQ(Validate(problem.lcp).status, Status::kOk);
+    EXPECT_EQ(lcp::Validate(problem.lcp).status, lcp::Status::kOk);
     ++read;
     if (problem.solution.size() == 0) continue;
     const Eigen::VectorXd w = problem.lcp.M * problem.solution + problem.lcp.q;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/lcp/solver.h"
 #include "cairn/solver.h"
 #include "rigid/castle.h"
 #include "rigid/condition.h"
@@ -345,10 +346,10 @@ TEST(CastleSizesTest, EveryModelIsSolved) {
     const SizedCastle castle = MakeSizedCastle(ImpactFrame(), CastleSizes()[1], model);
     const BoxedLcp lcp = ToBoxed(castle.frame.problem());
     ASSERT_TRUE(Validate(lcp).ok());
-    Settings settings;
+    lcp::Settings settings;
     settings.tolerance = 1e-6;
     VectorXd x = VectorXd::Zero(lcp.size());
-    const Report report = Solver(settings).Solve(lcp, &x);
+    const lcp::Report report = lcp::Solver(settings).Solve(lcp, &x);
     ASSERT_TRUE(report.ok());
     const LcpResidual residual = Measure(lcp, x);
     EXPECT_LE(residual.relative, settings.tolerance);

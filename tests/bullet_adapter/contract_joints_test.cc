@@ -21,7 +21,7 @@ using bench::At;
 using bench::Substep;
 using bench::World;
 
-Settings PlainSweeps() { return {.order = SweepOrder::kForward, .k_sm = 0}; }
+Settings PlainSweeps() { return {.path = Path::kReference, .k_sm = 0}; }
 
 /// Everything that a solver writes to bodies and joints.
 struct Outcome {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cairn/bullet/constraint_solver.h"
 #include "scenes/facts.h"
@@ -225,7 +227,7 @@ TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
 // A joint with a lever of 1e-6 m that is to move by 1e35 m/s: spins of 1e41 rad/s are numbers to
 // the solver and to Bullet in double precision, not to Bullet in floats.
 TEST(Features, AMotionThatBulletCannotHoldIsAnOverflow) {
-  bullet::ConstraintSolver solver({.order = SweepOrder::kForward});
+  bullet::ConstraintSolver solver({.path = Path::kReference});
   World world(&solver);
   btPoint2PointConstraint* const joint = HangBox(&world);
   joint->getRigidBodyA().setLinearFactor({0, 0, 0});
@@ -237,6 +239,83 @@ TEST(Features, AMotionThatBulletCannotHoldIsAnOverflow) {
   EXPECT_EQ(solver.fell_back(), is_float);
 }
 
+/// Draws nothing, and keeps what Bullet calls warnings.
+class Warnings : public btIDebugDraw {
+ public:
+  std::vector<std::string> said;
+
+  void reportErrorWarning(const char* text) override { said.emplace_back(text); }
+  void drawLine(const btVector3&, const btVector3&, const btVector3&) override {}
+  void drawContactPoint(const btVector3&, const btVector3&, btScalar, int,
+                        const btVector3&) override {}
+  void draw3dText(const btVector3&, const char*) override {}
+  void setDebugMode(int) override {}
+  int getDebugMode() const override { return 0; }
+};
+
+// The world goes on with Bullet's iteration, and everybody who asks is told why.
+TEST(Features, ABadSettingIsNamed) {
+  for (const bullet::Mode mode : {bullet::Mode::kFast, bullet::Mode::kReference}) {
+    bullet::ConstraintSolver solver({}, {.mode = mode});
+    World world(&solver);
+    Warnings warnings;
+    world.bullet()->setDebugDrawer(&warnings);
+    world.AddGround(10);
+    const btRigidBody* const box = world.AddBox(
+        btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
+    world.Step();
+    EXPECT_TRUE(solver.report().ok());
+    EXPECT_GT(solver.report().elapsed.count(), 0);
+    EXPECT_EQ(solver.complaint(), "");
+
+    solver.settings().threads = 0;
+    for (int i = 0; i < 30; ++i) world.Step();
+    EXPECT_EQ(solver.report().status, Status::kBadSettings);
+    EXPECT_TRUE(solver.fell_back());
+    const std::string expected = "threads is 0, must be 1 to 1024";
+    EXPECT_EQ(solver.complaint(), expected);
+    EXPECT_EQ(warnings.said, std::vector{"cairn: " + expected});  // once
+    EXPECT_NEAR(box->getWorldTransform().getOrigin().y(), 0.5, 0.02);
+
+    // without a budget it has no effect, and is refused all the same
+    solver.settings() = Settings{.tolerance = -1};
+    world.Step();
+    EXPECT_EQ(solver.complaint(), "tolerance is -1, must be 0 or more");
+    solver.settings() = Settings{};
+    world.Step();
+    EXPECT_FALSE(solver.fell_back());
+    EXPECT_EQ(solver.complaint(), "");
+    EXPECT_EQ(warnings.said.size(), 2u);
+  }
+}
+
+/// Sweeps of the first substep of a stack of three boxes.
+int SweepsOf(const Settings& settings, bullet::Effort effort) {
+  bullet::ConstraintSolver solver(settings, {.effort = effort});
+  World world(&solver);
+  world.AddGround(10);
+  for (int i = 0; i < 3; ++i) {
+    world.AddBox(btVector3(1, 1, 1) / 2,
+                 {.mass = 1, .pose = At(0, btScalar(0.49 + i), 0), .surface = {}});
+  }
+  world.solver_info().m_numIterations = 7;
+  world.Step();
+  return solver.report().sweeps;
+}
+
+TEST(Features, EffortSaysWhoseNumbersAreRead) {
+  Settings few{.steps = false, .max_sweeps = 3, .tolerance = 0};
+  EXPECT_GE(SweepsOf(few, bullet::Effort::kAuto), 7);
+  EXPECT_GE(SweepsOf(few, bullet::Effort::kIterations), 7);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kSettings), 3);
+  few.budget = Budget::Work(1'000'000'000);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kAuto), 3);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kSettings), 3);
+  EXPECT_GE(SweepsOf(few, bullet::Effort::kIterations), 7);
+  few.budget = Budget::Work(1);
+  EXPECT_EQ(SweepsOf(few, bullet::Effort::kIterations), 1);  // Tuning::min_sweeps
+}
+
 TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
   bullet::ConstraintSolver solver(Settings{.budget = Budget::Time(std::chrono::nanoseconds(0))});
   World world(&solver);
@@ -245,7 +324,7 @@ TEST(Features, ABudgetOfTimeIsForTheWholeSubstepAndStopsTheSweeps) {
                {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
   world.Step();
   EXPECT_EQ(solver.report().stop, StopReason::kTimeSpent);
-  EXPECT_EQ(solver.report().sweeps, Settings::kLateSweeps);
+  EXPECT_EQ(solver.report().sweeps, Tuning::kLateSweeps);
 }
 
 /// A pile after some steps under a budget of time by a clock of the test's own.
@@ -257,7 +336,7 @@ struct TimedPile {
 TimedPile StepTimedPile(const ScriptedClock& clock, bullet::Mode mode) {
   Settings settings;
   settings.budget = Budget::Time(std::chrono::milliseconds(1));
-  settings.clock = &clock;
+  settings.tuning.clock = &clock;
   settings.tolerance = 0;
   bullet::Options options;
   options.mode = mode;

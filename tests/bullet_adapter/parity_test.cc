@@ -20,7 +20,7 @@ namespace {
 
 using bench::Substep;
 
-Settings PlainSweeps() { return {.order = SweepOrder::kForward, .k_sm = 0}; }
+Settings PlainSweeps() { return {.path = Path::kReference, .k_sm = 0}; }
 
 /// Everything a solver leaves behind in the objects of one substep.
 struct Outcome {

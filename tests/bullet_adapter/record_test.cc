@@ -55,7 +55,7 @@ Recording Read(const std::string& path) {
 
 std::vector<double> SolveNext(Solver* solver, Recording recording) {
   solver->settings() = recording.settings;
-  if (recording.replay) solver->settings().replay = &*recording.replay;
+  if (recording.replay) solver->settings().tuning.replay = &*recording.replay;
   std::vector<Velocity> velocities(recording.bodies.size());
   const Impulses impulses = recording.impulses();
   EXPECT_TRUE(solver->Solve(recording.problem(), impulses, velocities).ok());

@@ -114,7 +114,7 @@ void CompareJoints(const Oracle& oracle, const bullet::FastGroup& ours, RowCount
       const Row& row = comparison.Compare(joint.first_row + i, source, Halves::kBoth);
       EXPECT_EQ(row.lo, bullet::Bound(source.m_lowerLimit));
       EXPECT_EQ(row.hi, bullet::Bound(source.m_upperLimit));
-      EXPECT_EQ(row.max_sweeps, source.m_overrideNumSolverIterations);
+      EXPECT_EQ(row.host.max_sweeps, source.m_overrideNumSolverIterations);
       EXPECT_EQ(joint.joint, source.m_originalContactPoint);
     }
   }
@@ -208,7 +208,7 @@ class PointComparison {
     const Row& normal = rows_[point_.normal_row];
     ExpectClose(normal_, normal, 1);
     EXPECT_NEAR(normal_.compliance, normal.compliance, 1e-6 * normal.compliance);
-    EXPECT_EQ(normal_.max_sweeps, normal.max_sweeps);
+    EXPECT_EQ(normal_.host.max_sweeps, normal.host.max_sweeps);
     for (int k = 0; k < point_.frictions; ++k) {
       const Row &actual = frictions_[k], &expected = rows_[point_.friction_row + k];
       EXPECT_FLOAT_EQ(static_cast<float>(actual.friction), static_cast<float>(expected.friction));
@@ -259,7 +259,7 @@ const Row* CompareJoints(const bullet::FastGroup& rows, const bullet::FastGroup&
       EXPECT_FLOAT_EQ(static_cast<float>(next->lo), static_cast<float>(row.lo));
       EXPECT_FLOAT_EQ(static_cast<float>(next->hi), static_cast<float>(row.hi));
       EXPECT_EQ(row.compliance, 0);
-      EXPECT_EQ(next->max_sweeps, row.max_sweeps);
+      EXPECT_EQ(next->host.max_sweeps, row.host.max_sweeps);
       ++counts->compact;
     }
   }

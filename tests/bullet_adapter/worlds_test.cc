@@ -125,7 +125,7 @@ TEST(ThreadedWorlds, GiveTheSameBitsEachTime) {
 /// matter which solver of the pool a group comes to. Islands share no row: each is what it is in
 /// one problem with the others.
 TEST(ThreadedWorlds, GiveTheBitsOfOneProblem) {
-  const Settings sweeps{.order = SweepOrder::kForward, .k_sm = 0};
+  const Settings sweeps{.path = Path::kReference, .k_sm = 0};
   ThreadedWorld small(sweeps), whole(sweeps);
   for (ThreadedWorld* threaded : {&small, &whole}) {
     threaded->world().AddGround();
@@ -224,7 +224,7 @@ TEST(SimpleWorlds, FallAndLandAsWithBullet) {
 /// Contacts carry their start themselves. Coloured sweeps keep the colours of pairs from one
 /// substep to the next, steps and joints keep more: here they are off.
 TEST(TwoWorlds, ThatShareASolverInTurnStayAsTheyAreAlone) {
-  const Settings sweeps{.order = SweepOrder::kForward, .k_sm = 0};
+  const Settings sweeps{.path = Path::kReference, .k_sm = 0};
   const bullet::Options cold{.warm_start_joints = false, .geometric_stiffness = false};
   const auto alone = [&](std::string_view scene) {
     bullet::ConstraintSolver solver(sweeps, cold);

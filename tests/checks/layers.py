@@ -6,7 +6,7 @@ import re
 import tree
 
 # Where a quoted include is looked for, beside the folder of the file itself.
-INCLUDE_ROOTS = ("", "core/include", "core/src", "bullet_adapter/include", "bullet_adapter/src",
+INCLUDE_ROOTS = ("", "core/include", "core/src", "core/lcp/include", "core/lcp/src", "bullet_adapter/include", "bullet_adapter/src",
                  "bench")
 
 # Rooms of the core, in the order of a frame.
@@ -34,16 +34,18 @@ MAY_INCLUDE = {
     # The double-precision path: the frame above never includes it.
     "core/src/reference": BELOW_STEP + ("core/src/step/", "core/src/reference/"),
     "core/src/recording": ("core/include/", "core/src/problem/", "core/src/recording/"),
-    "core/src": ("core/", "simd/"),
-    "core/lcp": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/runtime/", "simd/"),
+    "core/src": ("core/include/", "core/src/", "simd/"),
+    "core/lcp/include": ("core/lcp/include/", "core/include/"),
+    "core/lcp/src": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/problem/",
+                     "core/src/runtime/", "simd/"),
     "bullet_adapter/include": ("bullet_adapter/include/", "core/include/"),
     "bullet_adapter/src": ("bullet_adapter/", "core/include/"),
     # Rooms of the bench, from what all use up to programs.
-    "bench/support": ("bench/support/", "core/include/", "simd/"),
+    "bench/support": ("bench/support/", "core/include/", "core/lcp/include/", "simd/"),
     "bench/scenes": ("bench/scenes/",),
-    "bench/problems": ("bench/problems/", "core/include/"),
+    "bench/problems": ("bench/problems/", "core/include/", "core/lcp/include/"),
     "bench/measure": ("bench/measure/", "bullet_adapter/include/", "core/include/"),
-    "bench/rigid": ("bullet_adapter/include/", "core/include/", "bench/measure/", "bench/scenes/",
+    "bench/rigid": ("bullet_adapter/include/", "core/include/", "core/lcp/include/", "bench/measure/", "bench/scenes/",
                     "bench/problems/", "bench/rigid/"),
     "bench/worlds": ("bench/scenes/", "bench/measure/", "bench/worlds/", "bullet_adapter/include/",
                      "core/include/", "core/src/problem/"),
@@ -55,16 +57,16 @@ MAY_INCLUDE = {
     "bench/compare": ("bench/support/", "bench/run/", "bench/compare/"),
     "bench/page": ("bench/support/", "bench/run/", "bench/compare/", "bench/page/"),
     "bench/small": ABOVE_RUN + ("bench/run/", "bench/small/"),
-    "bench/lcp": ("bench/support/", "bench/lcp/", "core/include/"),
-    "bench/rows": BELOW_RUN + ("bench/rigid/", "bench/lcp/", "bench/rows/"),
+    "bench/lcp": ("bench/support/", "bench/lcp/", "core/include/", "core/lcp/include/"),
+    "bench/rows": BELOW_RUN + ("core/lcp/include/", "bench/rigid/", "bench/lcp/", "bench/rows/"),
     "bench/solve": ("bench/support/", "bench/problems/", "bench/measure/", "bench/rigid/", "bench/lcp/",
-                    "bench/rows/", "bench/solve/", "core/include/"),
-    "bench/tools": ("bench/", "core/include/", "simd/"),
-    "bench/frames": ABOVE_RUN + ("bench/run/", "bench/frames/"),
+                    "bench/rows/", "bench/solve/", "core/include/", "core/lcp/include/"),
+    "bench/tools": ("bench/", "core/include/", "core/lcp/include/", "simd/"),
+    "bench/frames": ABOVE_RUN + ("bench/run/", "bench/worlds/", "bench/frames/"),
     "bench/accuracy": ABOVE_RUN + ("bench/run/", "bench/accuracy/"),
     "bench/micro": ("bench/support/", "bench/measure/", "bench/scenes/", "bench/run/", "bench/micro/",
                     "bullet_adapter/include/", "core/", "simd/"),
-    "examples": ("examples/", "bullet_adapter/include/", "core/include/"),
+    "examples": ("examples/", "bullet_adapter/include/", "core/include/", "core/lcp/include/"),
     "tests": ("",),
 }
 

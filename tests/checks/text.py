@@ -12,7 +12,7 @@ INPUTS_OF_FUZZERS = "tests/fuzz/corpus/"
 CHANGELOG = "CHANGELOG.md"
 LOOSE_END = re.compile(r"\b(TODO(?!\(#\d+\))|FIXME|XXX)\b")
 # Where it may be called, as the file says.
-PREFETCH = "__builtin_" + "prefetch", "core/include/cairn/prefetch.h"
+PREFETCH = "__builtin_" + "prefetch", "core/include/cairn/detail/prefetch.h"
 SELF = os.path.relpath(os.path.abspath(__file__), tree.ROOT).replace(os.sep, "/")
 
 

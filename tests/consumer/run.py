@@ -45,7 +45,7 @@ class Consumer:
 
     def build_and_run(self):
         call([self.args.cmake, "--build", self.folder])
-        for program in ("embed", "bullet_swap", "bullet_swap_float64"):
+        for program in ("embed", "mixed_lcp", "bullet_swap", "bullet_swap_float64"):
             call([os.path.join(self.folder, program)])
 
     def flags(self, package, kind):
@@ -66,7 +66,7 @@ class Consumer:
              stdout=subprocess.DEVNULL)
 
     def find_package(self):
-        call(self.configure("-DCONSUMER_COMPONENTS=Core;Bullet;BulletFloat64"))
+        call(self.configure("-DCONSUMER_COMPONENTS=Core;Lcp;Bullet;BulletFloat64"))
         self.build_and_run()
 
     def add_subdirectory(self):
@@ -78,7 +78,7 @@ class Consumer:
 
     def pkg_config(self):
         os.makedirs(self.folder, exist_ok=True)
-        for example, package in (("embed.cc", "cairn"), ("bullet_swap.cc", "cairn-bullet"),
+        for example, package in (("embed.cc", "cairn"), ("mixed_lcp.cc", "cairn-lcp"), ("bullet_swap.cc", "cairn-bullet"),
                                  ("bullet_swap.cc", "cairn-bullet-float64")):
             program = os.path.join(self.folder, package)
             call(self.compile_command(example, package, program))
@@ -92,7 +92,7 @@ class Consumer:
         refused(self.configure("-DCONSUMER_COMPONENTS=Bullet", "-DCMAKE_DISABLE_FIND_PACKAGE_CairnBullet=ON"),
                 "cairn has no component Bullet: its Bullet was not found .*libbullet-dev")
         refused(self.configure("-DCONSUMER_COMPONENTS=Dynamics"),
-                "cairn has no component Dynamics: there are only Core, Bullet and BulletFloat64")
+                "cairn has no component Dynamics: there are only Core, Lcp, Bullet and BulletFloat64")
 
     def wrong_precision(self):
         os.makedirs(self.folder, exist_ok=True)

@@ -118,7 +118,8 @@ double Judge::LargestImpulse(const GameWorld& world) const {
 }
 
 bool Judge::FrictionBounds(const GameWorld& after) const {
-  if (!comparable_ || settings_.lifted_friction == LiftedFriction::kHold) return true;
+  if (!comparable_ || settings_.tuning.lifted_friction == detail::LiftedFriction::kHold)
+    return true;
   // sweeps change impulses by differences, in floats, which end at 1e-45
   const double rounding = 1e-6 * std::max({LargestImpulse(before_), LargestImpulse(after), 1e-34});
   const auto inside = [rounding](double x, double friction, double normal) {
@@ -127,7 +128,7 @@ bool Judge::FrictionBounds(const GameWorld& after) const {
   };
   for (size_t i = 0; i < after.rows.size(); ++i) {
     const Row& row = after.rows[i];
-    if (row.parent == kNoRow || row.max_sweeps < settings_.max_sweeps) continue;
+    if (row.parent == kNoRow || row.host.max_sweeps < settings_.max_sweeps) continue;
     const double normal = after.row_impulses[row.parent];
     if (!inside(after.row_impulses[i], row.friction, normal)) return false;
   }
@@ -146,8 +147,8 @@ std::string Judge::Work(const Report& report) const {
   if (settings_.budget.kind() != Budget::Kind::kWork) return "";
   // the sweeps that are made in any case, a block of rows, and a residual
   const double rows = static_cast<double>(AllRows(before_.problem()));
-  const double most =
-      static_cast<double>(settings_.budget.work()) + rows * (2 * settings_.min_sweeps + 3) + 64;
+  const double most = static_cast<double>(settings_.budget.work()) +
+                      rows * (2 * settings_.tuning.min_sweeps + 3) + 64;
   if (static_cast<double>(report.work) <= most) return "";
   return "work of " + std::to_string(report.work) + " on a budget of " +
          std::to_string(settings_.budget.work()) + " for " + std::to_string(rows) + " rows";
@@ -156,7 +157,7 @@ std::string Judge::Work(const Report& report) const {
 bool Judge::IsSteady() const {
   if (before_.law.bounce_speed > 0) return false;
   // friction that is held outside its bounds between bodies that nothing moves: blocks count it
-  if (settings_.lifted_friction == LiftedFriction::kHold) return false;
+  if (settings_.tuning.lifted_friction == detail::LiftedFriction::kHold) return false;
   return std::all_of(before_.manifolds.begin(), before_.manifolds.end(),
                      [&](const Manifold& m) { return m.tangents == 0 && !m.twists; });
 }
@@ -201,7 +202,7 @@ std::string Judge::Residual(GameWorld* after, const Report& report) const {
   const std::vector<double> x = AllImpulses(after->problem(), after->impulses());
   const Report measured = Measure(after->problem(), x);
   if (!measured.ok()) return "the result cannot be measured";
-  const double rounding = (SweepsInFloats(settings_) ? 1e-4 : 1e-6) * Scale(*after, x);
+  const double rounding = (PathOf(settings_) == Path::kFast ? 1e-4 : 1e-6) * Scale(*after, x);
   const double difference = std::abs(report.residual_energy - measured.residual_energy);
   if (!(difference > rounding)) return "";
   std::ostringstream text;

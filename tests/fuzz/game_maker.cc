@@ -7,6 +7,10 @@
 namespace cairn::test {
 namespace {
 
+/// As many numbers as there once were, so that inputs kept from then mean what they meant.
+constexpr Path kPaths[] = {Path::kAuto, Path::kReference, Path::kReference, Path::kReference,
+                           Path::kFast};
+
 constexpr int kMostBodies = 8, kMostRows = 24, kMostManifolds = 6, kMostJoints = 5;
 
 }  // namespace
@@ -15,24 +19,24 @@ Settings GameMaker::MakeSettings() {
   Choices& c = choices_;
   Settings settings;
   settings.method = Method(c.OneIn(32) ? c.Below(5) : 2 - c.Below(3) % 3);
-  settings.order = SweepOrder(c.Below(5));
-  if (c.Below(2) == 0) settings.order = SweepOrder::kColoured;
+  settings.path = kPaths[c.Below(5)];
+  if (c.Below(2) == 0) settings.path = Path::kFast;
   settings.k_gs = 1 + c.Below(6);
   settings.k_sm = c.OneIn(16) ? 1000 : c.Below(4);
   settings.max_sweeps = c.Below(16);
   constexpr double kTolerances[] = {0, 1e-3, 1e-6, 1e-1};
   settings.tolerance = kTolerances[c.Below(4)];
-  settings.min_progress = c.OneIn(4) ? 1e-5 : 0;
+  settings.tuning.min_progress = c.OneIn(4) ? 1e-5 : 0;
   if (c.OneIn(3)) settings.budget = Budget::Work(c.Byte() * (c.Below(2) == 0 ? 1 : 100));
-  settings.min_sweeps = c.Below(3);
-  settings.omega = c.OneIn(3) ? 1.5 : 1;
-  settings.lifted_friction = LiftedFriction(c.OneIn(4));
+  settings.tuning.min_sweeps = c.Below(3);
+  settings.tuning.omega = c.OneIn(3) ? 1.5 : 1;
+  settings.tuning.lifted_friction = detail::LiftedFriction(c.OneIn(4));
   settings.acceleration = Acceleration(c.Below(2));
   settings.step_policy = StepPolicy(c.Below(2));
   constexpr double kProximal[] = {3e-3, 1e-8, 1, 1e-5};
-  settings.proximal = kProximal[c.Below(4)];
+  settings.tuning.proximal = kProximal[c.Below(4)];
   settings.proximal_joints = c.OneIn(3) ? 1e-12 : 1e-6;
-  settings.refinements = 1 + (c.OneIn(4) ? c.Byte() : c.Below(3));
+  settings.tuning.refinements = 1 + (c.OneIn(4) ? c.Byte() : c.Below(3));
   return settings;
 }
 
@@ -84,7 +88,7 @@ Row GameMaker::MakeRow(const GameWorld& world) {
     if (bounds == 1) row.lo = -(row.hi = std::abs(row.hi));
   }
   if (choices_.OneIn(6)) row.relaxation = 0.5 + choices_.Byte() / 200.0;
-  if (choices_.OneIn(6)) row.max_sweeps = choices_.Below(8);
+  if (choices_.OneIn(6)) row.host.max_sweeps = choices_.Below(8);
   return row;
 }
 
@@ -153,7 +157,7 @@ void GameMaker::ChangeJoints(GameWorld* world) {
     joint.soft = choices_.OneIn(3);
     joint.opposite = choices_.Below(2) == 0;
     if (choices_.OneIn(4)) joint.damping = numbers_.Float();
-    if (choices_.OneIn(6)) joint.max_sweeps = choices_.Below(8);
+    if (choices_.OneIn(6)) joint.host.max_sweeps = choices_.Below(8);
   }
   world->joint_rows.clear();
   for (Joint& joint : joints) {
@@ -179,7 +183,7 @@ void GameMaker::ChangeManifolds(GameWorld* world) {
     manifold.tangents = static_cast<std::int8_t>(choices_.Below(3));
     manifold.soft = choices_.OneIn(4);
     manifold.twists = choices_.OneIn(4);
-    if (choices_.OneIn(6)) manifold.max_sweeps = choices_.Below(8);
+    if (choices_.OneIn(6)) manifold.host.max_sweeps = choices_.Below(8);
     manifolds.push_back(manifold);
   }
   world->points.clear();
@@ -191,7 +195,7 @@ void GameMaker::ChangeManifolds(GameWorld* world) {
     for (int p = 0; p < manifold.points; ++p) world->points.push_back(MakePoint());
   }
   world->law = {.bounce_speed = choices_.OneIn(2) ? numbers_.PositiveFloat() : 0.0f,
-                .spin_before_torques = choices_.OneIn(3)};
+                .host = {.spin_before_torques = choices_.OneIn(3)}};
 }
 
 void GameMaker::ChangeNumbers(GameWorld* world) {

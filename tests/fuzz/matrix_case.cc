@@ -3,11 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/solver.h"
+#include "cairn/contact_problem.h"
+#include "cairn/lcp/solver.h"
 #include "tests/fuzz/contact_game.h"
 
 namespace cairn::test {
 namespace {
+
+using lcp::BoxedLcp;
+using lcp::MixedLcp;
+using lcp::Report;
+using lcp::Settings;
+using lcp::Solver;
+using lcp::Status;
 
 using Matrix = Eigen::SparseMatrix<double>;
 
@@ -19,8 +27,8 @@ class MatrixMaker {
 
   Settings MakeSettings() {
     Settings settings;
-    settings.method = Method(choices_.Below(5));
-    settings.order = SweepOrder(choices_.Below(5));
+    settings.method = lcp::Method(choices_.Below(5));
+    settings.order = lcp::SweepOrder(choices_.Below(5));
     settings.k_gs = 1 + choices_.Below(6);
     settings.k_sm = choices_.Below(4);
     settings.max_sweeps = choices_.Below(40);
@@ -30,7 +38,7 @@ class MatrixMaker {
     settings.min_sweeps = choices_.Below(3);
     settings.threads = 1 + choices_.Below(2);
     settings.omega = 0.5 + choices_.Byte() / 200.0;
-    settings.step_policy = StepPolicy(choices_.Below(2));
+    settings.always_solve = choices_.Below(2) == 1;
     if (choices_.OneIn(8)) settings.active_tolerance = numbers_.Positive();
     return settings;
   }
@@ -114,7 +122,7 @@ std::string Check(const BoxedLcp& problem, const Eigen::VectorXd& start, const E
   if ((x.array() < problem.lo.array()).any() || (x.array() > problem.hi.array()).any()) {
     return "x is outside its box";
   }
-  const LcpResidual measured = Measure(problem, x);
+  const lcp::LcpResidual measured = Measure(problem, x);
   const bool same = report.residual_relative == measured.relative &&
                     report.residual_max == measured.max && std::isfinite(measured.relative);
   return same ? "" : "the residual is not what Measure() says";

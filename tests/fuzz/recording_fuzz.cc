@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 #include "cairn/solver.h"
 #include "recording/recording_format.h"
 #include "tests/core/support/recording_bytes.h"
@@ -31,8 +31,8 @@ void Solve(cairn::Recording recording) {
   settings.budget = cairn::Budget::Work(100'000);
   settings.threads = std::min(settings.threads, 1);
   settings.k_sm = std::min(settings.k_sm, 2);
-  settings.refinements = std::min(settings.refinements, 2);
-  settings.min_sweeps = std::min(settings.min_sweeps, kMostSweeps);
+  settings.tuning.refinements = std::min(settings.tuning.refinements, 2);
+  settings.tuning.min_sweeps = std::min(settings.tuning.min_sweeps, kMostSweeps);
   std::vector<cairn::Velocity> velocities(recording.bodies.size());
   const cairn::Impulses start = recording.impulses();
   (void)cairn::Solver(settings).Solve(recording.problem(), start, velocities);

@@ -124,7 +124,7 @@ void WorldGame::EndWithAPlainWorld() {
   while (!pieces_.empty()) RemoveBody(static_cast<int>(pieces_.size()) - 1);
   world_->getSolverInfo() = btContactSolverInfo();
   world_->setGravity({0, btScalar(-9.81), 0});
-  solver_->settings().omega = 1;
+  solver_->settings().tuning.omega = 1;
   solver_->must_solve = true;
   AddGround();
   const btVector3 half(btScalar(0.5), btScalar(0.5), btScalar(0.5));

@@ -120,7 +120,7 @@ void JudgedSolver::JudgeSolved(std::span<btCollisionObject* const> bodies,
   // the sweeps that are made in any case, a block of rows, and a residual
   const double rows = static_cast<double>(impulses().size());
   const double most =
-      static_cast<double>(asked.budget.work()) + rows * (2 * asked.min_sweeps + 3) + 64;
+      static_cast<double>(asked.budget.work()) + rows * (2 * asked.tuning.min_sweeps + 3) + 64;
   if (static_cast<double>(report().work) > most) {
     Break("work of " + std::to_string(report().work) + " on a budget of " +
           std::to_string(asked.budget.work()) + " for " + std::to_string(rows) + " rows");

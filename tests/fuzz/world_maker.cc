@@ -9,6 +9,10 @@
 namespace cairn::test {
 namespace {
 
+/// As many numbers as there once were, so that inputs kept from then mean what they meant.
+constexpr Path kPaths[] = {Path::kAuto, Path::kReference, Path::kReference, Path::kReference,
+                           Path::kFast};
+
 constexpr size_t kMostBodies = 14, kMostJoints = 14;
 constexpr btScalar kExtremeMasses[] = {btScalar(1e-20), btScalar(1e20), btScalar(1e-6),
                                        btScalar(1e6)};
@@ -340,17 +344,17 @@ void WorldGame::ChangeSettings() {
   Settings settings;
   constexpr Method kMethods[] = {Method::kPgsSm, Method::kPgsSm, Method::kPgs, Method::kPsor};
   settings.method = kMethods[choices_.Below(4)];
-  settings.order = choices_.OneIn(4) ? SweepOrder(choices_.Below(5)) : SweepOrder::kAutomatic;
+  settings.path = choices_.OneIn(4) ? kPaths[choices_.Below(5)] : Path::kAuto;
   settings.k_gs = 1 + choices_.Below(6);
   settings.k_sm = choices_.Below(4);
-  settings.min_sweeps = choices_.Below(3);
+  settings.tuning.min_sweeps = choices_.Below(3);
   settings.max_sweeps = choices_.Below(60);
   settings.step_policy = StepPolicy(choices_.Below(2));
-  settings.lifted_friction = LiftedFriction(choices_.Below(2));
+  settings.tuning.lifted_friction = detail::LiftedFriction(choices_.Below(2));
   settings.acceleration = Acceleration(choices_.Below(2));
   if (choices_.OneIn(3)) settings.budget = Budget::Work(choices_.Byte() * choices_.Byte());
   if (choices_.OneIn(4)) settings.tolerance = 0;
-  if (choices_.OneIn(64)) settings.omega = numbers_.Real();  // of which most are refused
+  if (choices_.OneIn(64)) settings.tuning.omega = numbers_.Real();  // of which most are refused
   settings.threads = play_.threads;
   solver_->settings() = settings;
 }

@@ -102,7 +102,7 @@ Json List(const Items& items) {
   return list;
 }
 
-Json ToJson(const Phases& phases) {
+Json ToJson(const lcp::Phases& phases) {
   Json json = Json::object();
   for (const auto& [name, phase] : kPhases) json[name] = Milliseconds(phases.*phase);
   return json;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "cairn/prefetch.h"
+#include "cairn/detail/prefetch.h"
 #include "conversions.h"
 
 namespace cairn::bullet {
@@ -33,10 +33,10 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   start_ = start;
   softness_ = {.erp = info.m_erp2, .compliance = info.m_globalCfm / info.m_timeStep};
   law_ = {.bounce_speed = static_cast<float>(info.m_restitutionVelocityThreshold),
-          .spin_before_torques = true};
+          .host = {.spin_before_torques = true}};
   like_ = {.body_a = kWorld, .body_b = kWorld};
   like_.tangents = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;
-  if (limits == SweepLimits::kBullet) like_.max_sweeps = info.m_numIterations;
+  if (limits == SweepLimits::kBullet) like_.host.max_sweeps = info.m_numIterations;
   const bool by_velocity =
       (info.m_solverMode & SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION) == 0;
   takes_any_ = by_velocity && info.m_sor == 1;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "body_table.h"
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
 #include "contacts/contact_input.h"

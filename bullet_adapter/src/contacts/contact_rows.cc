@@ -20,7 +20,7 @@ ContactLaw::ContactLaw(const btContactSolverInfo& info, SweepLimits limits)
       split_threshold(info.m_splitImpulsePenetrationThreshold),
       over_relaxation(info.m_sor) {
   row.relaxation = Relaxation(info.m_sor);
-  if (limits == SweepLimits::kBullet) row.max_sweeps = info.m_numIterations;
+  if (limits == SweepLimits::kBullet) row.host.max_sweeps = info.m_numIterations;
 }
 
 void ContactRowBuilder::Append(const ManifoldInput& manifold) {

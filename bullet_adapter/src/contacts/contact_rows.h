@@ -4,7 +4,7 @@
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 
 #include "body_table.h"
-#include "cairn/bullet/group_rows.h"
+#include "cairn/bullet/detail/group_rows.h"
 #include "contacts/contact_input.h"
 #include "contacts/split_impulse.h"
 #include "group_problem.h"

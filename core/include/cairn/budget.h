@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include <chrono>
 #include <cstdint>
 
 namespace cairn {
 
-/// Where Budget::Time gets the time from. One that goes back is taken to stand still until it has
-/// caught up; while it stands still, Settings::max_sweeps and Settings::tolerance end a Solve().
-class Clock {
- public:
-  virtual ~Clock() = default;
-  /// Since any fixed point. Asked by the thread that calls Solve().
-  virtual std::chrono::nanoseconds Now() const = 0;
-};
-
-/// What one Solve() may cost. The state is a valid, feasible answer after every block of rows, so
-/// a budget decides how good the answer is, never whether there is one. Settings::min_sweeps are
-/// made in any case.
+/// What one Solve() may cost. The state is a valid, feasible answer after every block of rows: a
+/// budget decides how good the answer is. Tuning::min_sweeps are made in any case.
 class Budget {
  public:
   enum class Kind { kUnlimited, kTime, kWork };
@@ -28,14 +19,14 @@ class Budget {
   /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every 8192
   /// rows, and what writing the results will take is set aside; a subspace step starts only if its
   /// predicted cost and the sweeps after it fit, and is given up where it takes longer. Results
-  /// depend on the machine: Report::replay says how to make them again. For a problem in matrix
-  /// form the clock is read between sweeps and between factorisations, not inside them.
+  /// depend on the machine: Report::replay says how to make them again. cairn::lcp reads the clock
+  /// between sweeps and between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());
   }
 
   /// The deterministic twin: work units, >= 0; 1 unit = 1 row relaxation. Residuals and subspace
-  /// steps are charged from counts alone, and the clock is never read.
+  /// steps are charged from counts alone, and no result depends on the clock.
   static constexpr Budget Work(std::int64_t units) { return Budget(Kind::kWork, units); }
 
   constexpr Kind kind() const { return kind_; }

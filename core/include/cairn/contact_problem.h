@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "cairn/joint.h"
 #include "cairn/manifold.h"
 #include "cairn/report.h"
+#include "cairn/row.h"
 
 namespace cairn {
-
-/// The body index of everything that does not move: ground, walls, kinematic bodies.
-inline constexpr int kWorld = -1;
-/// The parent of a row that has bounds of its own.
-inline constexpr int kNoRow = -1;
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Linear [m/s] and angular [rad/s] velocity of a body, world axes.
 struct Velocity {
@@ -41,37 +36,15 @@ struct Body {
   std::uint64_t id = 0;
 };
 
-/// One scalar constraint between two bodies. Its impulse x [N s] (or [N m s] if the row only turns)
-/// and its relative velocity
-///   w = J v + compliance x - target                                  [m/s] or [rad/s]
-/// obey: w >= 0 where x = lo, w <= 0 where x = hi, w = 0 in between. A contact has lo = 0 and
-/// hi = infinity, a joint has no bounds. A row with a parent is friction: its bounds are
-/// +-friction max(0, x_parent), cut down to [lo, hi] (lo <= 0 <= hi).
-struct Row {
-  int body_a = kWorld, body_b = kWorld;
-  /// The 12 entries of J: w gains linear_a . v_a + angular_a . omega_a + (the same for b).
-  Eigen::Vector3d linear_a = Eigen::Vector3d::Zero(), angular_a = Eigen::Vector3d::Zero();
-  Eigen::Vector3d linear_b = Eigen::Vector3d::Zero(), angular_b = Eigen::Vector3d::Zero();
-  double target = 0;                       ///< [m/s] or [rad/s]
-  double compliance = 0;                   ///< E, the diagonal added to J M^-1 J' [1/kg], >= 0.
-  double lo = -kInfinity, hi = kInfinity;  ///< [N s] or [N m s], lo <= hi.
-  int parent = kNoRow;    ///< Earlier row of the same two bodies that bounds this one.
-  double friction = 0;    ///< Coefficient against the parent, >= 0.
-  double relaxation = 1;  ///< Step length of this row in a sweep, in (0, 2).
-  /// Sweeps of a Solve() that this row takes part in, counted from the first.
-  int max_sweeps = std::numeric_limits<int>::max();
-};
-
 /// One time step of bodies and constraints: find impulses x with
 ///   v = v_start + M^-1 (external impulses + J' x),
 /// such that every row obeys its law (see Row). Without friction this is the boxed form of the
-/// mixed LCP of the paper [1] with matrix J M^-1 J' + E; friction bounds depend on other impulses.
+/// mixed LCP of the paper [1] with matrix J M^-1 J' + E; friction bounds follow other impulses.
 ///
-/// The order of the rows matters with SweepOrder::kForward, and among the rows of two bodies.
-/// Joints may be given as rows, or as Joint: their rows follow @p rows, joint by joint. Contacts
-/// may be given as rows, or as manifolds: their rows come last, manifold by manifold, first the
-/// normals of its points, then the friction of each, then what resists turning. Joints and
-/// manifolds are faster: nothing is written out.
+/// The order of the rows matters on Path::kReference, and among the rows of two bodies.
+/// Rows of joints follow @p rows, joint by joint; those of manifolds come last, manifold by
+/// manifold, first the normals of its points, then the friction of each, then what resists turning.
+/// Joints and manifolds are faster than the same as rows: nothing is written out.
 ///
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.
@@ -100,13 +73,11 @@ struct Impulses {
   std::span<float> joint_rows = {};       ///< One per ContactProblem::joint_rows [N s] or [N m s].
 };
 
-/// One number per row of a problem, in their order: as Measure() wants them.
-/// @pre the impulses belong to the problem
+/// One number per row, in their order, as Measure() wants them. @pre they belong to the problem
 std::vector<double> AllImpulses(const ContactProblem& problem, const Impulses& impulses);
 
-/// Measures given impulses, one per row (see ContactProblem for their order), in double precision
-/// and from the problem alone: the same yardstick for every solver. Fills the residuals of the
-/// report, in all and per island; bad input is answered as by Solver::Solve().
+/// Measures impulses, one per row in the order of ContactProblem, in double precision and from the
+/// problem alone. Fills the residuals of the report; bad input is answered as by Solver::Solve().
 [[nodiscard]] Report Measure(const ContactProblem& problem, std::span<const double> impulses);
 
 }  // namespace cairn

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include <cstdint>
-#include <limits>
+
+#include "cairn/detail/host.h"
 
 namespace cairn {
 
@@ -36,8 +38,7 @@ struct Joint {
   /// Rows push the bodies with opposite forces: linear_b is -linear_a, whatever it says. That is
   /// swept faster.
   bool opposite = false;
-  /// Sweeps of a Solve() that the rows take part in, counted from the first.
-  int max_sweeps = std::numeric_limits<int>::max();
+  detail::RowHost host = {};
 
   bool is_bounded(int row) const { return (bounded >> row & 1) != 0; }
   bool is_angular(int row) const { return (angular >> row & 1) != 0; }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include <cstdint>
-#include <limits>
 #include <span>
+
+#include "cairn/detail/host.h"
 
 namespace cairn {
 
@@ -34,10 +36,7 @@ struct ContactPoint {
 struct ContactImpulse {
   float normal = 0;              ///< [N s]
   float tangential[2] = {0, 0};  ///< Along t1 and t2 [N s].
-  /// Of t1 in the plane across the normal, for the next frame: a start is turned into directions of
-  /// its own. Where atan2 has pi / 2 it has 2, and so on from 1 to 5; anything else is a t1 along
-  /// the first axis of the plane.
-  float heading = 0;
+  float heading = 0;  ///< Of t1, for the next frame; see detail/host.h. 0 where there was none.
   float direction[3] = {0, 0, 0};  ///< t1; of a start, it is not looked at.
 };
 
@@ -58,12 +57,6 @@ struct TwistImpulse {
   float rolling[2] = {0, 0};
 };
 
-/// How a body moves before and after external impulses, where ContactProblem::motions says so.
-struct ContactMotion {
-  float free_velocity[3], free_spin[3];    ///< With external impulses [m/s], [rad/s].
-  float start_velocity[3], start_spin[3];  ///< Before them.
-};
-
 /// Points of contact between two bodies, at most one of which does not move.
 struct Manifold {
   static constexpr int kMostPoints = 4;
@@ -74,8 +67,7 @@ struct Manifold {
   std::int8_t tangents = 2;  ///< Directions of friction, in [0, 2].
   bool soft = false;         ///< Points have a compliance.
   bool twists = false;       ///< Points resist turning, see ContactTwist.
-  /// Sweeps of a Solve() that the rows take part in, counted from the first.
-  int max_sweeps = std::numeric_limits<int>::max();
+  detail::RowHost host = {};
 
   int rows() const { return points * (1 + tangents + (twists ? kTwistRows : 0)); }
 
@@ -86,9 +78,7 @@ struct Manifold {
 struct ContactLaw {
   /// Bodies that approach slower than this do not bounce [m/s], >= 0.
   float bounce_speed = 0;
-  /// Friction sees the spin that bodies have before external torques act, as Bullet's does. Off:
-  /// the one after.
-  bool spin_before_torques = false;
+  detail::ContactHost host = {};
 };
 
 }  // namespace cairn

@@ -1,141 +1,65 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include "cairn/budget.h"
 #include "cairn/executor.h"
 #include "cairn/report.h"
-#include "cairn/spans.h"
+#include "cairn/tuning.h"
 
 namespace cairn {
 
 /// How the iterations are made.
 enum class Method {
-  kPgs,    ///< Projected Gauss-Seidel: sweeps only.
-  kPsor,   ///< The same with over-relaxation Settings::omega.
-  kPgsSm,  ///< Sweeps and subspace minimisation steps.
-  /// Sweeps and steps exactly as the paper states them, without any safeguard: for comparison. For
-  /// problems in matrix form only: a ContactProblem answers kBadSettings.
-  kPgsSmLiteral,
-  /// Mehrotra's predictor-corrector; rows without bounds stay equations. Likewise.
-  kInteriorPoint,
+  kPgs,    ///< Projected Gauss-Seidel: sweeps only, each from the impulses of the last.
+  kPsor,   ///< The same with over-relaxation Tuning::omega.
+  kPgsSm,  ///< Accelerated sweeps, and subspace minimisation steps where they pay.
 };
 
-/// The order in which rows are swept.
-enum class SweepOrder {
-  /// Matrix form: kColoured for a large problem that few colours suffice for, else kForward; the
-  /// choice depends on the matrix alone. Contact problems: kColoured, unless Settings::tolerance is
-  /// too fine for floats (positive and below 1e-5).
-  kAutomatic,
-  /// Row 0 first. Contact problems: in double precision, on one thread.
-  kForward,
-  kReverse,    ///< Row 0 last. Contact problems: as kForward.
-  kSymmetric,  ///< Forward and reverse in turn. Contact problems: as kForward.
-  /// Colour by colour: what has one colour shares no unknown, and threads relax it side by side.
-  /// Same bits for any number of threads. Contact problems: all rows of two bodies together, joints
-  /// before contacts, in floats with vector instructions; the same bits for any of those. What
-  /// floats cannot hold is left to kForward: a start or 1 / d beyond 1e12, say. See docs/solver.md.
-  kColoured,
-};
-
-/// When a subspace step is taken (Method::kPgsSm with k_sm > 0 only).
-enum class StepPolicy {
-  kMeasured,  ///< Where it is predicted to pay, and no longer where it was measured not to.
-  kAlways,    ///< After every k_gs sweeps that may be followed by k_gs more, at any cost.
-  /// Where it lowers the energy by more than the sweeps in its place would, and is predicted to
-  /// cost about as much as all else on its island at most. Islands without a step go on for up to
-  /// twice max_sweeps; docs/solver.md, Effort. Contact problems in blocks without a budget;
-  /// elsewhere as kMeasured.
-  kWeighed,
-};
-
-/// What a friction row does while its parent row pushes with nothing.
-enum class LiftedFriction {
-  kRelease,  ///< Its impulse is zero, as Coulomb says.
-  kHold,     ///< It keeps its last impulse, as Bullet's sequential impulses do.
-};
-
-/// Whether sweeps build on each other.
-enum class Acceleration {
-  kNone,
-  /// Nonsmooth nonlinear conjugate gradients (Silcowitz-Niebe and Erleben 2010): before a sweep the
-  /// state moves on along what the last ones changed. One such sweep is worth several, see
-  /// docs/benchmarks.md.
-  kNncg,
-};
-
-/// How hard to try. Plain data; Solve() rejects values out of range (Status::kBadSettings).
+/// How hard to try; the defaults are meant for a game. Plain data: Solve() refuses what is out of
+/// range (Status::kBadSettings) and names the first in Report::bad_setting.
+///
+/// What few touch is in Tuning. Six fields that belong there (method, k_gs, k_sm, acceleration,
+/// step_policy, proximal_joints) are promised names of Settings, for `Settings{.k_gs = 5}` too,
+/// which rules out a base class.
 struct Settings {
   Method method = Method::kPgsSm;
-  SweepOrder order = SweepOrder::kAutomatic;
-
+  Path path = Path::kAuto;  ///< Which engine. Report::path says which it was.
   /// Sweeps before each subspace step, and again after it, >= 1. Five are enough to smooth what the
   /// step leaves behind; two are not.
   int k_gs = 5;
   /// Factorisations in one subspace step at most, in [0, 1000]: one, and one more for each pass
-  /// that removes rows which left their bounds. 0 makes every method but kInteriorPoint plain
-  /// sweeps. In matrix form kPgsSm goes on beyond it while the predicted set settles.
+  /// that removes rows which left their bounds. 0: no steps.
   int k_sm = 2;
-  /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed.
+  bool steps = true;  ///< Off: no subspace steps, as with k_sm = 0.
+  /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed. At 0 the start comes back.
   int max_sweeps = 1000;
-  /// Solve() is done when no row is further from its law than this: natural residual, in [m/s] for
-  /// rows that act on points and in [rad/s] for rows that only turn, >= 0; 0 means never. For a
-  /// problem in matrix form: LcpResidual::relative.
+  /// Done when no row is further from its law than this: natural residual, in [m/s] for rows that
+  /// act on points and in [rad/s] for rows that only turn, >= 0. 0 means never; Path::kAuto takes
+  /// double precision below 1e-5.
   double tolerance = 1e-3;
-  /// Solve() is also done when a whole sweep moved no row by more than this, [m/s] or [rad/s],
-  /// >= 0. At 0 only a sweep that changed nothing at all ends the iteration. For a problem in
-  /// matrix form: sqrt(sum d_i (change of x_i)^2), unit of LcpResidual::energy.
-  double min_progress = 0;
   Budget budget = Budget::Unlimited();
-  /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
-  /// nullptr: none. Must outlive the Solve(). Contact problems only.
-  const Replay* replay = nullptr;
-  /// Sweeps made even if the budget is spent before them, because a frame does not fit or the
-  /// thread lost its core: >= 0, or kByBudget. At 0 a budget that is too small for anything returns
-  /// the warm start.
-  int min_sweeps = kByBudget;
-  /// Contact problems with Budget::Time: kLateSweeps; elsewhere 1. See docs/tuning.md, Too late.
-  static constexpr int kByBudget = -1, kLateSweeps = 4;
   /// Threads that may work on one Solve(), the caller included, in [1, 1024]. Results are the same
   /// for any number. Problems too small to gain stay on the caller's.
   int threads = 1;
   /// Where the other threads come from; nullptr: oneTBB. Must outlive every Solve().
   Executor* executor = nullptr;
-  /// Takes down which thread did what when, on contact problems in blocks (SweepOrder::kColoured);
-  /// nullptr: nobody does. Must outlive every Solve(). No result depends on it.
-  SpanRecorder* spans = nullptr;
-  /// Of Budget::Time; nullptr: std::chrono::steady_clock. Must outlive every Solve(). Contact
-  /// problems only.
-  const Clock* clock = nullptr;
 
-  /// Over-relaxation of Method::kPsor, in (0, 2). 1 is Gauss-Seidel.
-  double omega = 1;
-  LiftedFriction lifted_friction = LiftedFriction::kRelease;
-  /// Of sweeps of Method::kPgsSm in a contact problem that is swept in colours; elsewhere sweeps
-  /// are what their names say.
   Acceleration acceleration = Acceleration::kNncg;
-
   StepPolicy step_policy = StepPolicy::kMeasured;
-  /// Proximal term of a subspace step on rows with bounds, relative to the diagonal of the row,
-  /// in [1e-8, 1]. Contacts of a face are redundant and disagree by millimetres: smaller values
-  /// make the step fit that disagreement, larger ones leave more of the slow error behind. The
-  /// solver raises it on an island where a step was rejected, and lowers it while steps are kept:
-  /// down to 1/4 of this, with a budget to 1/32.
-  double proximal = 3e-3;
-  /// The same on rows without bounds (joints), in [1e-12, 1]. Where joints are redundant, each step
-  /// adds impulses of what they contradict each other divided by it, which floats cannot hold
-  /// against each other for long: there joints are condensed, and softened if that is not enough.
-  /// docs/solver.md, Guards.
+  /// Proximal term of a step on rows without bounds (joints), relative to the diagonal of the row,
+  /// in [1e-12, 1]. Where joints are redundant, each step adds impulses of what they contradict
+  /// each other divided by it, which floats cannot hold against each other for long: there joints
+  /// are condensed, and softened if that is not enough. docs/solver.md, Guards.
   double proximal_joints = 1e-6;
-  /// Solves with the last factor of a step at most, in [1, 1000]. Those after the first refine it
-  /// while no row leaves its bounds; see docs/solver.md before raising it.
-  int refinements = 1;
-  /// Problems in matrix form: a row belongs to the predicted free set if it is further than this
-  /// from its bounds, unit of x, >= 0; the paper's tol.
-  double active_tolerance = 0;
+
+  Tuning tuning = {};
 };
 
-/// Whether contact problems are swept in blocks, in floats, as far as these say; otherwise row by
-/// row in double precision.
-bool SweepsInFloats(const Settings& settings);
+/// What Path::kAuto comes to under these settings: kFast or kReference.
+Path PathOf(const Settings& settings);
+
+/// The first setting that is out of its range, if any.
+[[nodiscard]] BadSetting FindBadSetting(const Settings& settings);
 
 }  // namespace cairn

@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
-#include <functional>
 #include <memory>
 #include <span>
 
-#include "cairn/boxed_lcp.h"
 #include "cairn/contact_problem.h"
-#include "cairn/mixed_lcp.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 
 namespace cairn {
 
-/// A problem in matrix form on its way to the solution.
-struct Iterate {
-  const Eigen::VectorXd& x;  ///< Inside the box.
-  int sweeps = 0;            ///< So far.
-  int factorisations = 0;
-};
-
-/// Looks at an iterate; false ends the iteration (StopReason::kCancelled).
-using Observer = std::function<bool(const Iterate&)>;
-
-/// Projected Gauss-Seidel with subspace minimisation, after [1] (contact_problem.h). Our
-/// differences from the paper: the reduced system is solved in body space with a proximal term,
-/// friction is part of it, sweeps follow each step, and a step that does not pay is undone.
+/// Projected Gauss-Seidel with subspace minimisation, after [1] (contact_problem.h);
+/// docs/solver.md has our differences from the paper.
 ///
 /// Different solvers may run at the same time, one solver may not. It keeps what it learnt about an
 /// island from frame to frame (see Body::id), never the problem.
@@ -43,8 +30,7 @@ class Solver {
   /// @param[in,out] impulses  one per row and one per point of contact: the start (a warm start, or
   ///                          zeros; brought inside the bounds first) and the result.
   /// @param[out] velocities   one per body: velocities at the end of the step.
-  /// Bad input: Report::status says what, Report::bad_row, bad_body, bad_manifold or bad_joint
-  /// where, nothing is written.
+  /// Bad input: the report says what and where (see Describe()), nothing is written.
   [[nodiscard]] Report Solve(const ContactProblem& problem, const Impulses& impulses,
                              std::span<Velocity> velocities);
   /// The same into a report of an earlier call, whose memory is used again. Once a problem has been
@@ -60,21 +46,6 @@ class Solver {
              std::span<Velocity> velocities, Report* report) {
     Solve(problem, Impulses{.rows = impulses}, velocities, report);
   }
-
-  /// Solves a problem in matrix form. Our differences from the paper in Method::kPgsSm: rows join
-  /// the set by the sign of w, too, a singular reduced matrix gets a proximal term, interior point
-  /// iterations predict a set that does not settle, and the best iterate is returned;
-  /// Method::kPgsSmLiteral is the paper's own algorithm. See docs/matrix.md.
-  /// @param[in,out] x  n values: the start (brought inside the box first) and the result.
-  /// Bad input: Report::status says what, Report::bad_row where, x is not touched.
-  [[nodiscard]] Report Solve(const BoxedLcp& problem, Eigen::VectorXd* x);
-  /// @param[in,out] u, v  n_a and n_b values, likewise. Report::bad_row counts u first, then v.
-  [[nodiscard]] Report Solve(const MixedLcp& problem, Eigen::VectorXd* u, Eigen::VectorXd* v);
-
-  /// From now on shows @p observer every iterate of a problem in matrix form: after each sweep,
-  /// each reduced solve and each interior point iteration. The clock of a Budget::Time does not
-  /// stop for it. An empty function ends that.
-  void Observe(Observer observer);
 
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();

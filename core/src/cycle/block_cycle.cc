@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "cairn/spans.h"
+#include "cairn/detail/spans.h"
 
 namespace cairn {
 namespace {
@@ -84,7 +84,7 @@ void BlockCycle::Begin() {
 void BlockCycle::GuardStart() {
   guards_ = IsGuarded(*settings_);
   if (!guards_) return;
-  const SpanClock clock(settings_->spans, 0, {SpanKind::kGuard});
+  const SpanClock clock(settings_->tuning.spans, 0, {SpanKind::kGuard});
   merits_.Find(frame_, made_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (Done(i) || !merits_.of(i).is_worse_than_none()) continue;
@@ -94,7 +94,7 @@ void BlockCycle::GuardStart() {
 }
 
 void BlockCycle::GuardResult() {
-  const SpanClock clock(settings_->spans, 0, {SpanKind::kGuard});
+  const SpanClock clock(settings_->tuning.spans, 0, {SpanKind::kGuard});
   for (GroupSweeps& group : chosen_) group.active = true;
   merits_.Find(frame_, chosen_);
   ChooseNone();
@@ -268,7 +268,8 @@ void BlockCycle::Judge(bool seen) {
   const Plan& plan = frame_->plan();
   for (int i = 0; i < static_cast<int>(islands_.size()) && seen; ++i) {
     if (!Open(i)) continue;
-    if (Largest(states_[i].seen) <= settings_->min_progress) Stop(i, StopReason::kStationary);
+    if (Largest(states_[i].seen) <= settings_->tuning.min_progress)
+      Stop(i, StopReason::kStationary);
   }
   if (seen && settings_->tolerance > 0) JudgeNear();
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {

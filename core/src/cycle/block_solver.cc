@@ -36,10 +36,10 @@ class Shift {
 PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
                               BudgetMeter* meter, const Impulses& impulses,
                               std::span<Velocity> velocities, Report* report) {
-  crew_.Follow(settings);
+  crew_.Follow(settings.threads, settings.executor);
   const size_t rows = AllRows(problem);
   Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
-  crew->RecordTo(settings.spans);
+  crew->RecordTo(settings.tuning.spans);
   const Shift shift(crew);
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
@@ -51,14 +51,14 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
     report->islands.clear();
     return PackResult::kOutOfRange;
   }
-  const SpanClock clock(settings.spans, 0, {SpanKind::kResults});
+  const SpanClock clock(settings.tuning.spans, 0, {SpanKind::kResults});
   frame_.End(problem, crew, impulses, velocities);
   return PackResult::kDone;
 }
 
 PackResult BlockSolver::Begin(const ContactProblem& problem, const Settings& settings,
                               const Impulses& impulses, Crew* crew) {
-  const SpanClock clock(settings.spans, 0, {SpanKind::kSetUp});
+  const SpanClock clock(settings.tuning.spans, 0, {SpanKind::kSetUp});
   return frame_.Begin(problem, OmegaOf(settings), impulses, crew);
 }
 

@@ -52,7 +52,8 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
   meter_ = meter;
   crew_ = crew;
   asked_ = asked;
-  has_budget_ = settings.budget.kind() != Budget::Kind::kUnlimited || settings.replay != nullptr;
+  has_budget_ =
+      settings.budget.kind() != Budget::Kind::kUnlimited || settings.tuning.replay != nullptr;
   if (!asked_) return;
   const Plan& plan = frame->plan();
   memory_of_island_.assign(plan.islands().size(), nullptr);
@@ -213,7 +214,7 @@ double BlockSteps::PriceOf(const SystemSize& size, int factorisations) const {
                            prices.entry * size.nonzeros + prices.body * size.nodes;
   const double refine = prices.refine * size.lines + prices.entry * size.nonzeros;
   return prices.line * size.lines + factorisations * factorise +
-         (settings_->refinements - 1) * refine;
+         (settings_->tuning.refinements - 1) * refine;
 }
 
 double BlockSteps::RestAlone(int island, int sweeps) const {
@@ -278,11 +279,11 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
   bool given_up = too_late || meter_->ReplaysGivingUp();
   BlockSystem<T>& system = SystemOf<T>(group);
   meter_->Begin();
-  const SpanClock clock(settings_->spans, 0, {SpanKind::kStep, group});
+  const SpanClock clock(settings_->tuning.spans, 0, {SpanKind::kStep, group});
   int made = 1;
   if (!given_up) {
     Deadline deadline = meter_->StepDeadline();
-    made = step->Take(frame_->plan(), group, settings_->refinements, &system, crew_,
+    made = step->Take(frame_->plan(), group, settings_->tuning.refinements, &system, crew_,
                       &frame_->blocks(), islands_now_, &deadline);
     given_up = deadline.passed();
   }

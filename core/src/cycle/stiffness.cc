@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/stiffness.h"
+#include "cairn/detail/stiffness.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "cairn/prefetch.h"
+#include "cairn/detail/prefetch.h"
 #include "pack/joint_pack.h"
 #include "pack/manifold_pack.h"
 #include "plan/row_law.h"
@@ -110,7 +110,7 @@ class UsualLaw {
   /// The row has it, and acts between these bodies. False says nothing.
   bool Fits(const Row& row, const Pair& pair, int parent) const {
     const int integers = (row.body_a ^ pair.row_a) | (row.body_b ^ pair.row_b) |
-                         (row.parent ^ parent) | (row.max_sweeps ^ max_sweeps_);
+                         (row.parent ^ parent) | (row.host.max_sweeps ^ max_sweeps_);
     const std::uint64_t law = (Bits(row.lo) ^ lo_) | (Bits(row.hi) ^ Bits(kInfinity)) |
                               (Bits(row.relaxation) ^ Bits(1)) | Bits(row.compliance);
     const bool same = (static_cast<std::uint32_t>(integers) | law) == 0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "cairn/prefetch.h"
+#include "cairn/detail/prefetch.h"
 
 namespace cairn {
 namespace {

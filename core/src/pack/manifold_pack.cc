@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "cairn/prefetch.h"
+#include "cairn/detail/prefetch.h"
 
 namespace cairn {
 namespace {
@@ -91,7 +91,7 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
                            .soft = first.soft,
                            .twists = first.twists,
                            .bounce_speed = law.bounce_speed,
-                           .spin_before_torques = law.spin_before_torques};
+                           .spin_before_torques = law.host.spin_before_torques};
   for (int lane = 0; lane < kLanes; ++lane) {
     // unused lanes do what the first one does
     const int used = lane < block.lanes ? lane : 0;

@@ -170,7 +170,7 @@ int PairFinder::ShapeOf(const Joint& joint, ShapeTable* shapes) {
     scratch_.push_back({.bound = joint.is_bounded(i) ? simd::RowBound::kOwn : simd::RowBound::kFree,
                         .soft = joint.soft,
                         .angular = joint.is_angular(i),
-                        .max_sweeps = joint.max_sweeps});
+                        .max_sweeps = joint.host.max_sweeps});
   }
   return shapes->Intern(scratch_, RowSource::kJoint);
 }
@@ -205,19 +205,20 @@ void PairFinder::Add(const Pair& added, bool opposite) {
 }
 
 int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
-  scratch_.assign(
-      manifold.points,
-      {.bound = simd::RowBound::kPush, .soft = manifold.soft, .max_sweeps = manifold.max_sweeps});
+  scratch_.assign(manifold.points, {.bound = simd::RowBound::kPush,
+                                    .soft = manifold.soft,
+                                    .max_sweeps = manifold.host.max_sweeps});
   for (int p = 0; p < manifold.points; ++p) {
     scratch_.resize(scratch_.size() + manifold.tangents, {.bound = simd::RowBound::kFriction,
                                                           .parent = static_cast<std::int16_t>(p),
-                                                          .max_sweeps = manifold.max_sweeps});
+                                                          .max_sweeps = manifold.host.max_sweeps});
   }
   for (int p = 0; p < manifold.points && manifold.twists; ++p) {
-    scratch_.resize(scratch_.size() + Manifold::kTwistRows, {.bound = simd::RowBound::kCutFriction,
-                                                             .angular = true,
-                                                             .parent = static_cast<std::int16_t>(p),
-                                                             .max_sweeps = manifold.max_sweeps});
+    scratch_.resize(scratch_.size() + Manifold::kTwistRows,
+                    {.bound = simd::RowBound::kCutFriction,
+                     .angular = true,
+                     .parent = static_cast<std::int16_t>(p),
+                     .max_sweeps = manifold.host.max_sweeps});
   }
   return shapes->Intern(scratch_, RowSource::kManifold);
 }

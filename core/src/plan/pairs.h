@@ -28,11 +28,11 @@ struct Pair {
 /// Whether rows of the one are of the same kind and number as those of the other.
 inline bool HasLawOf(const Joint& a, const Joint& b) {
   return a.rows == b.rows && a.bounded == b.bounded && a.angular == b.angular && a.soft == b.soft &&
-         a.opposite == b.opposite && a.max_sweeps == b.max_sweeps;
+         a.opposite == b.opposite && a.host.max_sweeps == b.host.max_sweeps;
 }
 inline bool HasLawOf(const Manifold& a, const Manifold& b) {
   return a.points == b.points && a.tangents == b.tangents && a.soft == b.soft &&
-         a.twists == b.twists && a.max_sweeps == b.max_sweeps;
+         a.twists == b.twists && a.host.max_sweeps == b.host.max_sweeps;
 }
 
 /// Sequences of row shapes, each once for each source.

@@ -33,7 +33,7 @@ bool IsFinite(const Row& row, double impulse) {
 bool HasShape(const Row& row, double omega, const simd::RowShape& shape) {
   return BoundOf(row) == shape.bound && (row.compliance > 0) == shape.soft &&
          (omega * row.relaxation != 1) == shape.relaxed && IsAngular(row) == shape.angular &&
-         row.max_sweeps == shape.max_sweeps;
+         row.host.max_sweeps == shape.max_sweeps;
 }
 
 simd::RowShape ShapeOf(const Row& row, double omega) {
@@ -42,7 +42,7 @@ simd::RowShape ShapeOf(const Row& row, double omega) {
           .relaxed = omega * row.relaxation != 1,
           .angular = IsAngular(row),
           .parent = -1,
-          .max_sweeps = row.max_sweeps};
+          .max_sweeps = row.host.max_sweeps};
 }
 
 bool HasValidLaw(const Row& row) {

@@ -120,7 +120,7 @@ void ContactExpansion::Add(const Joint& joint, const ContactProblem& problem,
       row.lo = from.lo;
       row.hi = from.hi;
     }
-    row.max_sweeps = joint.max_sweeps;
+    row.host = joint.host;
     impulses_.push_back(start.joint_rows[i]);
   }
 }
@@ -148,9 +148,9 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
 
   // targets are for velocities as the bodies have them
   const Velocity a_slides{a.free.linear,
-                          law.spin_before_torques ? a.start.angular : a.free.angular};
+                          law.host.spin_before_torques ? a.start.angular : a.free.angular};
   const Velocity b_slides{b.free.linear,
-                          law.spin_before_torques ? b.start.angular : b.free.angular};
+                          law.host.spin_before_torques ? b.start.angular : b.free.angular};
   const Vector3d unseen = own - relative(a_slides, b_slides);
   const Vector3d own_spin = MotionOf(bodies_, manifold.body_a).free.angular -
                             MotionOf(bodies_, manifold.body_b).free.angular;
@@ -178,7 +178,7 @@ void ContactExpansion::Add(const Manifold& manifold, const ContactProblem& probl
                  .linear_b = -d,
                  .angular_b = d.cross(arm_b),
                  .target = aimed.target[k],
-                 .max_sweeps = manifold.max_sweeps};
+                 .host = manifold.host};
     };
     rows_.push_back(row(0));
     rows_.back().lo = 0;
@@ -220,7 +220,7 @@ void ContactExpansion::AddTwists(const Manifold& manifold, const ContactProblem&
                        .hi = most,
                        .parent = first + p,
                        .friction = k == 0 ? twist.spinning : twist.rolling,
-                       .max_sweeps = manifold.max_sweeps});
+                       .host = manifold.host});
       impulses_.push_back(starts[k]);
     }
   }

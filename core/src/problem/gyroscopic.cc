@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/gyroscopic.h"
+#include "cairn/detail/gyroscopic.h"
 
 #include "simd/gyroscopic.h"
 

@@ -7,7 +7,7 @@ namespace cairn {
 
 /// Step length of every row: over-relaxation of Method::kPsor.
 inline double OmegaOf(const Settings& settings) {
-  return settings.method == Method::kPsor ? settings.omega : 1.0;
+  return settings.method == Method::kPsor ? settings.tuning.omega : 1.0;
 }
 
 }  // namespace cairn

@@ -117,10 +117,6 @@ Status CheckJointRows(const ContactProblem& problem, const Joint& joint, const I
   return Status::kOk;
 }
 
-constexpr int kMostThreads = 1024;
-/// Of one step: far beyond what any takes.
-constexpr int kMostFactorisations = 1000, kMostSolves = 1000;
-
 bool Inside(double value, double lo, double hi) { return value >= lo && value <= hi; }
 
 /// They are bodies of the problem, and not the same.
@@ -182,16 +178,34 @@ Status ValidateRow(const ContactProblem& problem, int row, double impulse) {
   return std::isfinite(impulse) ? CheckRow(problem, row) : Status::kNotFinite;
 }
 
-bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses) {
-  if (impulses.rows.size() != problem.rows.size()) return false;
-  const bool motions = problem.motions.empty() || problem.motions.size() == problem.bodies.size();
-  const bool twists = impulses.twists.size() == problem.twists.size() &&
-                      (problem.twists.empty() || problem.twists.size() == problem.points.size());
-  const bool joints =
-      problem.joints.empty() || impulses.joint_rows.size() == problem.joint_rows.size();
-  if (!joints || (!problem.joints.empty() && !motions)) return false;
-  return problem.manifolds.empty() ||
-         (motions && twists && impulses.points.size() == problem.points.size());
+BadSetting FindBadSize(const ContactProblem& problem, const Impulses& impulses) {
+  BadSetting bad;
+  const auto check = [&bad](const char* name, size_t size, const char* range, size_t wanted) {
+    if (bad.name == nullptr && size != wanted) bad = {name, static_cast<double>(size), range};
+  };
+  const auto check_or_none = [&check](const char* name, size_t size, const char* range,
+                                      size_t wanted) {
+    if (size != 0) check(name, size, range, wanted);
+  };
+  const bool joints = !problem.joints.empty(), manifolds = !problem.manifolds.empty();
+  check("impulses.rows.size()", impulses.rows.size(), "problem.rows.size()", problem.rows.size());
+  if (joints) {
+    check("impulses.joint_rows.size()", impulses.joint_rows.size(), "problem.joint_rows.size()",
+          problem.joint_rows.size());
+  }
+  if (joints || manifolds) {
+    check_or_none("problem.motions.size()", problem.motions.size(), "0 or problem.bodies.size()",
+                  problem.bodies.size());
+  }
+  if (manifolds) {
+    check("impulses.points.size()", impulses.points.size(), "problem.points.size()",
+          problem.points.size());
+    check_or_none("problem.twists.size()", problem.twists.size(), "0 or problem.points.size()",
+                  problem.points.size());
+    check("impulses.twists.size()", impulses.twists.size(), "problem.twists.size()",
+          problem.twists.size());
+  }
+  return bad;
 }
 
 Status ValidateJoint(const ContactProblem& problem, int index) {
@@ -228,9 +242,10 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
     }
     return false;
   };
-  const bool sizes = HasValidSizes(problem, impulses);
   if (problem.bodies.empty()) report.status = Status::kEmptyProblem;
-  if (report.ok() && !sizes) report.status = Status::kWrongSize;
+  if (!report.ok()) return report;
+  report.bad_setting = FindBadSize(problem, impulses);
+  if (report.bad_setting.name != nullptr) report.status = Status::kWrongSize;
   if (!report.ok()) return report;
 
   // nobody else looks at them
@@ -256,30 +271,6 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   if (!(bounce >= 0)) report.status = Status::kNotFinite;
   if (report.ok()) refused(problem.manifolds.size(), manifold, &report.bad_manifold);
   return report;
-}
-
-Status Validate(const Settings& settings) {
-  // names every field: a new one does not compile until its range is checked here
-  const auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay,
-               min_sweeps, threads, executor, spans, clock, omega, lifted_friction, acceleration,
-               step_policy, proximal, proximal_joints, refinements, active_tolerance] = settings;
-  static_cast<void>(executor);  // any will do, and any of these
-  static_cast<void>(spans);
-  static_cast<void>(clock);
-  const bool replays = replay == nullptr || replay->work >= 0;
-  const bool enums =
-      Inside(static_cast<int>(method), 0, static_cast<int>(Method::kInteriorPoint)) &&
-      Inside(static_cast<int>(order), 0, static_cast<int>(SweepOrder::kColoured)) &&
-      Inside(static_cast<int>(lifted_friction), 0, 1) &&
-      Inside(static_cast<int>(acceleration), 0, 1) &&
-      Inside(static_cast<int>(step_policy), 0, static_cast<int>(StepPolicy::kWeighed));
-  const bool counts = k_gs >= 1 && Inside(k_sm, 0, kMostFactorisations) && max_sweeps >= 0 &&
-                      min_sweeps >= Settings::kByBudget && Inside(threads, 1, kMostThreads) &&
-                      Inside(refinements, 1, kMostSolves);
-  const bool reals = Inside(tolerance, 0, kInfinity) && Inside(min_progress, 0, kInfinity) &&
-                     omega > 0 && omega < 2 && Inside(proximal, 1e-8, 1) &&
-                     Inside(proximal_joints, 1e-12, 1) && Inside(active_tolerance, 0, kInfinity);
-  return enums && counts && reals && replays && budget.valid() ? Status::kOk : Status::kBadSettings;
 }
 
 }  // namespace cairn

@@ -15,8 +15,9 @@ namespace cairn {
 /// the report names the first offender.
 Report Validate(const ContactProblem& problem, const Impulses& impulses);
 
-/// Starts, and motions, belong to the problem.
-bool HasValidSizes(const ContactProblem& problem, const Impulses& impulses);
+/// The first span that does not belong to the problem: "impulses.rows.size() is 3, must be
+/// problem.rows.size()". No name: all do.
+BadSetting FindBadSize(const ContactProblem& problem, const Impulses& impulses);
 
 /// What a manifold says of itself; not its points.
 Status ValidateManifold(const ContactProblem& problem, int manifold);
@@ -26,8 +27,6 @@ Status ValidateJoint(const ContactProblem& problem, int joint);
 
 /// One row of it. @pre the bodies are valid
 Status ValidateRow(const ContactProblem& problem, int row, double impulse);
-
-Status Validate(const Settings& settings);
 
 /// R with R R' = inv_inertia, zero columns last where the matrix has no rank. False if the matrix
 /// is not symmetric positive semidefinite, to the precision of a float.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/recorder.h"
+#include "cairn/detail/recorder.h"
 
 #include <algorithm>
 #include <charconv>
@@ -96,9 +96,10 @@ bool Recorder::Begin(const ContactProblem& problem, const Impulses& start) {
 void Recorder::End(const Settings& settings, const Report& report) {
   recording_.frame = next_path_.empty() ? frame_ : next_frame_;
   recording_.settings = settings;
-  recording_.settings.replay = nullptr;
+  recording_.settings.tuning.spans = nullptr;
+  recording_.settings.tuning.replay = nullptr;
   recording_.settings.executor = nullptr;
-  recording_.settings.clock = nullptr;
+  recording_.settings.tuning.clock = nullptr;
   recording_.replay.reset();
   if (settings.budget.kind() == Budget::Kind::kTime) recording_.replay = report.replay;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 
 #include "problem/contact_expansion.h"
 #include "problem/validate.h"

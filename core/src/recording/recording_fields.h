@@ -3,7 +3,7 @@
 // Writer, reader and counter are shown the same fields.
 #pragma once
 
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 
 namespace cairn {
 
@@ -46,7 +46,7 @@ void Visit(Row& row, Io& io) {
   io.F64(row.friction);
   io.F64(row.relaxation);
   io.I32(row.parent);
-  io.I32(row.max_sweeps);
+  io.I32(row.host.max_sweeps);
 }
 
 template <class Io>
@@ -58,7 +58,7 @@ void Visit(Joint& joint, Io& io) {
   io.U32(joint.bounded);
   io.U32(joint.angular);
   io.F32(joint.damping);
-  io.I32(joint.max_sweeps);
+  io.I32(joint.host.max_sweeps);
   io.Flag(joint.soft);
   io.Flag(joint.opposite);
   io.Zeros(2);
@@ -81,7 +81,7 @@ void Visit(Manifold& manifold, Io& io) {
   io.I32(manifold.body_a);
   io.I32(manifold.body_b);
   io.I32(manifold.first_point);
-  io.I32(manifold.max_sweeps);
+  io.I32(manifold.host.max_sweeps);
   io.Small(manifold.points, 1, Manifold::kMostPoints);
   io.Small(manifold.tangents, 0, 2);
   io.Flag(manifold.soft);
@@ -133,7 +133,7 @@ void Visit(ContactMotion& motion, Io& io) {
 template <class Io>
 void Visit(ContactLaw& law, Io& io) {
   io.F32(law.bounce_speed);
-  io.Flag(law.spin_before_torques);
+  io.Flag(law.host.spin_before_torques);
   io.Zeros(3);
 }
 
@@ -182,18 +182,38 @@ inline Budget Join(const BudgetFields& fields) {
   return Budget::Unlimited();
 }
 
+/// Which engine, as files of version 2 say it: an order of rows, of which three are those of the
+/// reference.
+enum class FileOrder { kAutomatic, kForward, kReverse, kSymmetric, kColoured };
+
+inline FileOrder OrderOf(Path path) {
+  if (path == Path::kAuto) return FileOrder::kAutomatic;
+  return path == Path::kFast ? FileOrder::kColoured : FileOrder::kForward;
+}
+inline Path PathOf(FileOrder order) {
+  if (order == FileOrder::kAutomatic) return Path::kAuto;
+  return order == FileOrder::kColoured ? Path::kFast : Path::kReference;
+}
+
 template <class Io>
 void Visit(Settings& settings, Io& io) {
   // names every field: a new one does not compile until it is part of the file
-  auto& [method, order, k_gs, k_sm, max_sweeps, tolerance, min_progress, budget, replay, min_sweeps,
-         threads, executor, spans, clock, omega, lifted_friction, acceleration, step_policy,
-         proximal, proximal_joints, refinements, active_tolerance] = settings;
+  auto& [method, path, k_gs, k_sm, steps, max_sweeps, tolerance, budget, threads, executor,
+         acceleration, step_policy, proximal_joints, tuning] = settings;
+  auto& [min_progress, min_sweeps, omega, proximal, refinements, lifted_friction, replay, spans,
+         clock] = tuning;
+  if (!steps) k_sm = 0;       // as files have it
   static_cast<void>(replay);  // has a section of its own
   static_cast<void>(executor);
   static_cast<void>(spans);
   static_cast<void>(clock);
-  io.Enum(method, Method::kInteriorPoint);
-  io.Enum(order, SweepOrder::kColoured);
+  // methods of matrices once had numbers here; contacts were refused to them
+  constexpr auto kLastMethod = static_cast<Method>(4);
+  io.Enum(method, kLastMethod);
+  if (method > Method::kPgsSm) method = Method::kPgsSm;
+  FileOrder order = OrderOf(path);
+  io.Enum(order, FileOrder::kColoured);
+  path = PathOf(order);
   io.I32(k_gs);
   io.I32(k_sm);
   io.I32(max_sweeps);
@@ -206,12 +226,13 @@ void Visit(Settings& settings, Io& io) {
   io.Require(fields.kind != Budget::Kind::kUnlimited || fields.amount == 0);
   budget = Join(fields);
   io.I32(threads);
-  io.Enum(lifted_friction, LiftedFriction::kHold);
+  io.Enum(lifted_friction, detail::LiftedFriction::kHold);
   io.Enum(step_policy, StepPolicy::kWeighed);
   io.F64(omega);
   io.F64(proximal);
   io.F64(proximal_joints);
-  io.F64(active_tolerance);
+  double of_matrices = 0;  // was active_tolerance
+  io.F64(of_matrices);
   io.I32(refinements);
   io.Enum(acceleration, Acceleration::kNncg);
 }

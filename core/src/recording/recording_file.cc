@@ -6,8 +6,8 @@
 #include <memory>
 #include <system_error>
 
-#include "cairn/recording.h"
-#include "cairn/whole_file.h"
+#include "cairn/detail/recording.h"
+#include "cairn/detail/whole_file.h"
 #include "recording/recording_format.h"
 
 namespace cairn {

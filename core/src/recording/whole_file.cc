@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/whole_file.h"
+#include "cairn/detail/whole_file.h"
 
 #include <cerrno>
 #include <cstdio>

@@ -87,18 +87,19 @@ bool IslandCycle::SweepOnce(BudgetMeter* meter) {
   for (int begin = 0; begin < rows; begin += kBlockRows) {
     if (Spent(*meter)) {
       if (begin > 0) {
-        ProjectFriction(island_, {begin, rows, at_.sweeps}, settings_.lifted_friction, &at_.state);
+        ProjectFriction(island_, {begin, rows, at_.sweeps}, settings_.tuning.lifted_friction,
+                        &at_.state);
       }
       Stop(meter->stop_reason());
       return false;
     }
     const int end = std::min(begin + kBlockRows, rows);
-    moved = std::max(
-        moved, SweepRows(island_, {begin, end, at_.sweeps}, settings_.lifted_friction, &at_.state));
+    moved = std::max(moved, SweepRows(island_, {begin, end, at_.sweeps},
+                                      settings_.tuning.lifted_friction, &at_.state));
     meter->Charge(WorkKind::kSweep, end - begin);
   }
   ++at_.sweeps;
-  if (moved <= settings_.min_progress) Stop(StopReason::kStationary);
+  if (moved <= settings_.tuning.min_progress) Stop(StopReason::kStationary);
   return !done();
 }
 

@@ -53,7 +53,7 @@ PackedRow Packer::PackRow(const Row& row) const {
   packed.hi = row.hi;
   packed.friction = row.friction;
   packed.parent = row.parent == kNoRow ? kNoRow : local_row_[row.parent];
-  packed.max_sweeps = row.max_sweeps;
+  packed.max_sweeps = row.host.max_sweeps;
   packed.angular = row.linear_a.isZero(0) && row.linear_b.isZero(0);
   return packed;
 }

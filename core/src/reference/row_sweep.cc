@@ -8,10 +8,11 @@ namespace cairn {
 namespace {
 
 /// The row keeps its impulse in this sweep.
-bool Rests(const PackedRow& row, int sweep, LiftedFriction lifted, const IslandState& state) {
+bool Rests(const PackedRow& row, int sweep, detail::LiftedFriction lifted,
+           const IslandState& state) {
   if (sweep >= row.max_sweeps) return true;
   const bool is_lifted = row.parent != kNoRow && !(state.x[row.parent] > 0);
-  return is_lifted && lifted == LiftedFriction::kHold;
+  return is_lifted && lifted == detail::LiftedFriction::kHold;
 }
 
 /// x_i := x,  u += G' (change of x_i). Returns the change.
@@ -25,7 +26,7 @@ double Set(const PackedRow& row, int i, double x, IslandState* state) {
 
 }  // namespace
 
-double SweepRows(const PackedIsland& island, SweepRange range, LiftedFriction lifted,
+double SweepRows(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,
                  IslandState* state) {
   double largest = 0;
   for (int i = range.begin; i < range.end; ++i) {
@@ -41,7 +42,7 @@ double SweepRows(const PackedIsland& island, SweepRange range, LiftedFriction li
   return largest;
 }
 
-void ProjectFriction(const PackedIsland& island, SweepRange range, LiftedFriction lifted,
+void ProjectFriction(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,
                      IslandState* state) {
   for (int i = range.begin; i < range.end; ++i) {
     const PackedRow& row = island.rows[i];

@@ -14,12 +14,12 @@ struct SweepRange {
 
 /// Projected Gauss-Seidel over a range of rows, in their order. Returns the largest velocity that a
 /// row was moved by, d |change of x| [m/s] or [rad/s].
-double SweepRows(const PackedIsland& island, SweepRange range, LiftedFriction lifted,
+double SweepRows(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,
                  IslandState* state);
 
 /// Brings friction back inside its bounds, in rows that a sweep did not get to after it had changed
 /// their parents.
-void ProjectFriction(const PackedIsland& island, SweepRange range, LiftedFriction lifted,
+void ProjectFriction(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,
                      IslandState* state);
 
 }  // namespace cairn

@@ -29,7 +29,7 @@ double StepCost(const PackedIsland& island, const Settings& settings, int factor
   const double rows = static_cast<double>(island.rows.size());
   const double factorise = kAssembleRow * rows + kFlop * system.factor_flops();
   const double solve = kRefineRow * rows + kSolveEntry * system.factor_nonzeros();
-  return kPrepareRow * rows + factorisations * (factorise + settings.refinements * solve);
+  return kPrepareRow * rows + factorisations * (factorise + settings.tuning.refinements * solve);
 }
 
 bool StepPays(const PackedIsland& island, const Settings& settings, const StepBudget& budget,

@@ -11,11 +11,12 @@
 
 namespace cairn {
 
-/// Settings::min_sweeps. @p late: of a time, where that leaves it to the budget
-inline int LeastSweeps(const Settings& settings, int late = Settings::kLateSweeps) {
-  if (settings.min_sweeps != Settings::kByBudget) return settings.min_sweeps;
-  const bool timed = settings.replay != nullptr || settings.budget.kind() == Budget::Kind::kTime;
-  return timed ? late : 1;
+/// Tuning::min_sweeps, with what the budget makes of it
+inline int LeastSweeps(const Settings& settings) {
+  if (settings.tuning.min_sweeps != Tuning::kByBudget) return settings.tuning.min_sweeps;
+  const bool timed =
+      settings.tuning.replay != nullptr || settings.budget.kind() == Budget::Kind::kTime;
+  return timed ? Tuning::kLateSweeps : 1;
 }
 
 /// What kind of work is charged, each at its price in nanoseconds.
@@ -46,7 +47,7 @@ struct WorkPrices {
 class BudgetMeter {
  public:
   /// Of a time, what the results of @p rows rows will take is set aside.
-  /// @p clock: Settings::clock
+  /// @p clock: Tuning::clock
   BudgetMeter(Budget budget, double rows, WorkPrices* prices, const Clock* clock = nullptr);
   /// Makes a frame again. @p replay must outlive the meter.
   BudgetMeter(const Replay& replay, WorkPrices* prices);

@@ -254,9 +254,9 @@ Crew::~Crew() = default;
 Crew::Crew(Crew&&) noexcept = default;
 Crew& Crew::operator=(Crew&&) noexcept = default;
 
-void Crew::Follow(const Settings& settings) {
-  const bool same = impl_->threads == settings.threads && impl_->given == settings.executor;
-  if (!same) *this = Crew(settings.threads, settings.executor);
+void Crew::Follow(int threads, Executor* executor) {
+  const bool same = impl_->threads == threads && impl_->given == executor;
+  if (!same) *this = Crew(threads, executor);
 }
 
 void Crew::RecordTo(SpanRecorder* recorder) {

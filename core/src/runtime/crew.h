@@ -3,9 +3,8 @@
 
 #include <memory>
 
+#include "cairn/detail/spans.h"
 #include "cairn/executor.h"
-#include "cairn/settings.h"
-#include "cairn/spans.h"
 
 namespace cairn {
 
@@ -41,8 +40,8 @@ class Crew {
   Crew(Crew&&) noexcept;
   Crew& operator=(Crew&&) noexcept;
 
-  /// Becomes that of the settings, if it is not already.
-  void Follow(const Settings& settings);
+  /// Becomes one of so many threads, if it is not already.
+  void Follow(int threads, Executor* executor);
 
   /// Who takes down what is done from now on; nullptr: nobody. Not while helpers are here.
   void RecordTo(SpanRecorder* recorder);

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "cairn/budget.h"
+#include "cairn/tuning.h"
 
 namespace cairn {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/spans.h"
+#include "cairn/detail/spans.h"
 
 #include <algorithm>
 #include <numeric>

@@ -38,11 +38,11 @@ double SofteningOf(int level) { return level < 2 ? 1 : std::pow(10.0, level - 1)
 }  // namespace
 
 StepSettings IslandMemory::Step(const Settings& settings) const {
-  return {.proximal = std::clamp(settings.proximal * softening_, kLeastProximal, 1.0),
+  return {.proximal = std::clamp(settings.tuning.proximal * softening_, kLeastProximal, 1.0),
           .proximal_joints = std::clamp(settings.proximal_joints * SofteningOf(joint_level_),
                                         settings.proximal_joints, kMostJointProximal),
           .factorisations = settings.k_sm,
-          .refinements = settings.refinements,
+          .refinements = settings.tuning.refinements,
           .condense_joints = condenses_joints()};
 }
 

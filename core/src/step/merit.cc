@@ -62,7 +62,7 @@ double Merit::best_scale() const {
 
 bool IsGuarded(const Settings& settings) {
   return settings.method == Method::kPgsSm && settings.max_sweeps > 0 &&
-         settings.lifted_friction == LiftedFriction::kRelease;
+         settings.tuning.lifted_friction == detail::LiftedFriction::kRelease;
 }
 
 void IslandMerits::Find(BlockFrame* frame, std::span<const GroupSweeps> groups) {

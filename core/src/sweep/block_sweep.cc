@@ -44,7 +44,7 @@ class BlockSweeps::Pass final : public StagedWork {
     const int sweep = stage / stages_of_sweep();
     simd::PairWork work = sweeps_.frame_->WorkOn(of.first_block, of.blocks);
     work.sweep = groups_[of.group].sweeps + sweep;
-    work.hold_lifted = sweeps_.settings_.lifted_friction == LiftedFriction::kHold;
+    work.hold_lifted = sweeps_.settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
     const simd::PairKernels& kernels = sweeps_.frame_->kernels();
     const auto last = sweep == count_ - 1 ? kernels.measured_sweep : kernels.sweep;
     (kind_ == Kind::kMeasure ? kernels.measure : last)(work);

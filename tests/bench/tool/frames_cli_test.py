@@ -6,8 +6,8 @@ import sys
 import unittest
 
 TOOL = ""
-PARTS = ["build: bodies", "build: joints", "build: contacts", "plan", "pack", "sweeps", "measuring", "steps", "results",
-         "write", "other"]
+PARTS = ["build: bodies", "build: joints", "build: contacts", "plan", "pack", "sweeps", "measuring",
+         "guards", "steps", "results", "write", "other"]
 
 
 def frames(*arguments):

@@ -221,7 +221,7 @@ TEST(BlockFrame, PlansAgainWhenTheStructureChanges) {
       {"a bound less", [](Scene* s) { s->rows[0].lo = -kInfinity; }},
       {"soft", [](Scene* s) { s->rows[4].compliance = 0.1; }},
       {"relaxed", [](Scene* s) { s->rows[4].relaxation = 0.9; }},
-      {"sweeps", [](Scene* s) { s->rows[4].max_sweeps = 9; }},
+      {"sweeps", [](Scene* s) { s->rows[4].host.max_sweeps = 9; }},
       {"angular",
        [](Scene* s) {
          s->rows[4].linear_a = s->rows[4].linear_b = {0, 0, 0};

@@ -38,7 +38,7 @@ class Oracle {
       x_[i] = Project(static_cast<int>(i), x_[i]);
       Apply(scene.rows[i], x_[i]);
     }
-    omega_ = settings.method == Method::kPsor ? settings.omega : 1;
+    omega_ = settings.method == Method::kPsor ? settings.tuning.omega : 1;
     test::MakePlan(scene, omega_, &plan_);
   }
 
@@ -46,7 +46,7 @@ class Oracle {
     for (int b = 0; b < static_cast<int>(plan_.blocks().size()); ++b) {
       for (int lane = 0; lane < plan_.blocks()[b].lanes; ++lane) {
         for (int row : plan_.rows_of(plan_.pair(b, lane))) {
-          if (number < scene_.rows[row].max_sweeps) Relax(row);
+          if (number < scene_.rows[row].host.max_sweeps) Relax(row);
         }
       }
     }
@@ -87,8 +87,8 @@ class Oracle {
       d += angular.dot(b.inv_inertia * angular);
       w += linear.dot(v_[body].linear) + angular.dot(v_[body].angular);
     }
-    const bool held = settings_.lifted_friction == LiftedFriction::kHold && row.parent != kNoRow &&
-                      x_[row.parent] <= 0;
+    const bool held = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold &&
+                      row.parent != kNoRow && x_[row.parent] <= 0;
     if (held) return;
     // what nothing can satisfy asks for nothing, and stays inside its bounds
     const double step = d > 0 ? omega_ * row.relaxation * w / d : 0;
@@ -160,15 +160,15 @@ TEST(BlockSolver, ObeysEveryLawOfARowAsTheOracleDoes) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = EveryLaw(seed);
-    for (const auto lifted : {LiftedFriction::kRelease, LiftedFriction::kHold}) {
+    for (const auto lifted : {detail::LiftedFriction::kRelease, detail::LiftedFriction::kHold}) {
       Settings settings = Coloured(8);
-      settings.lifted_friction = lifted;
+      settings.tuning.lifted_friction = lifted;
       ExpectLikeTheOracle(scene, settings);
       ExpectLikeTheOracle(scene, settings, RandomStart(scene, seed));
     }
     Settings settings = Coloured(8);
     settings.method = Method::kPsor;
-    settings.omega = 1.2;
+    settings.tuning.omega = 1.2;
     ExpectLikeTheOracle(scene, settings, RandomStart(scene, seed), 1e-5);
   }
 }

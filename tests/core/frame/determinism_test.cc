@@ -130,9 +130,9 @@ struct Golden {
 
 TEST(Determinism, HoldsFromMachineToMachine) {
   Settings held = Coloured(8), relaxed = Coloured(8), converged = Coloured(60);
-  held.lifted_friction = LiftedFriction::kHold;
+  held.tuning.lifted_friction = detail::LiftedFriction::kHold;
   relaxed.method = Method::kPsor;
-  relaxed.omega = 1.2;
+  relaxed.tuning.omega = 1.2;
   converged.tolerance = 1e-3;
   Settings as_it_comes, work = test::ColouredSteps(1000);
   as_it_comes.max_sweeps = 10;

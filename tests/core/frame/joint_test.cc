@@ -44,11 +44,11 @@ Report Solve(const Settings& settings, ManifoldScene* scene, std::vector<Velocit
 TEST(Joint, CarriesWhatHangsFromIt) {
   // by hand: the upper one carries both boxes, the lower one its own
   for (const bool opposite : {false, true}) {
-    for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+    for (const Path path : {Path::kFast, Path::kReference}) {
       ManifoldScene scene = Hanging();
       for (Joint& joint : scene.joints) joint.opposite = opposite;
       Settings settings;
-      settings.order = order;
+      settings.path = path;
       settings.max_sweeps = 200;
       settings.tolerance = 2e-5;
       std::vector<Velocity> velocities;
@@ -61,13 +61,13 @@ TEST(Joint, CarriesWhatHangsFromIt) {
 }
 
 TEST(Joint, GivesNoMoreThanItsBounds) {
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     ManifoldScene scene = Hanging();
     scene.joints[1].bounded = 1u << 1;
     scene.joint_rows[4].lo = 0;
     scene.joint_rows[4].hi = 0.125f;
     Settings settings;
-    settings.order = order;
+    settings.path = path;
     std::vector<Velocity> velocities;
     ASSERT_TRUE(Solve(settings, &scene, &velocities).ok());
     EXPECT_FLOAT_EQ(scene.joint_impulses[4], 0.125f);
@@ -76,12 +76,12 @@ TEST(Joint, GivesNoMoreThanItsBounds) {
 }
 
 TEST(Joint, WorksAgainstItsShareOfWhatBodiesDo) {
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     ManifoldScene scene = Hanging();
     scene.joints.resize(1);
     scene.joints[0].damping = 0.25f;
     Settings settings;
-    settings.order = order;
+    settings.path = path;
     std::vector<Velocity> velocities;
     ASSERT_TRUE(Solve(settings, &scene, &velocities).ok());
     EXPECT_NEAR(velocities[0].linear.y(), -0.75 * test::kGravityStep, 1e-6);
@@ -124,7 +124,7 @@ struct Bad {
 class BadJoint : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadJoint, IsRefusedAndNothingIsWritten) {
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     ManifoldScene scene = test::RandomManifolds(10, 20, 2);
     test::AddJoints(20, 2, &scene);
     scene.joints[5].bounded |= 1;
@@ -132,7 +132,7 @@ TEST_P(BadJoint, IsRefusedAndNothingIsWritten) {
     GetParam().spoil(&scene);
     const std::vector<float> before = scene.joint_impulses;
     Settings settings;
-    settings.order = order;
+    settings.path = path;
     std::vector<Velocity> velocities(scene.bodies.size());
     velocities[0].linear.x() = 7;
     const Report report = Solve(settings, &scene, &velocities);

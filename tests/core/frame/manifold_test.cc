@@ -267,9 +267,9 @@ TEST(Manifold, TurnsItsStartIntoTheDirectionsOfTheFrame) {
   scene.manifolds[0].points = 1;
   // last frame t1 was the second axis, z, and t2 = z x y = -x
   scene.point_impulses[0] = {.normal = 1, .tangential = {0.25f, 0.125f}, .heading = 2};
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     Settings settings = test::Coloured(0);
-    settings.order = order;
+    settings.path = path;
     const Solved solved = Solve(settings, scene);
     ASSERT_TRUE(solved.report.ok());
     EXPECT_FLOAT_EQ(solved.points[0].direction[0], 1);
@@ -301,9 +301,9 @@ TEST(Manifold, ResistsTurningAsFarAsItIsPressed) {
   scene.twists.resize(scene.points.size());
   scene.twist_impulses.resize(scene.points.size());
   scene.twists[0] = {.spinning = 0.25f, .rolling = 10, .most_spinning = 10, .most_rolling = 0.1f};
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     Settings settings;
-    settings.order = order;
+    settings.path = path;
     const Solved solved = Solve(settings, scene);
     ASSERT_TRUE(solved.report.ok());
     EXPECT_NEAR(solved.twists[0].spinning, -0.5, kFloat);
@@ -331,13 +331,13 @@ struct Bad {
 class BadManifold : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadManifold, IsRefusedAndNothingIsWritten) {
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     ManifoldScene scene = test::RollingManifolds(10, 20, 2);
     scene.manifolds[5].twists = true;
     GetParam().spoil(&scene);
     const std::vector<ContactImpulse> before = scene.point_impulses;
     Settings settings;
-    settings.order = order;
+    settings.path = path;
     Solver solver(settings);
     std::vector<Velocity> velocities(scene.bodies.size());
     velocities[0].linear.x() = 7;

@@ -61,7 +61,7 @@ TEST(Nncg, EndsInsideTheBoundsAfterAnyWork) {
   for (int work = 1; work < 30 * sweep; work += sweep / 3 + 1) {
     Settings settings = Sweeps(Acceleration::kNncg, 1000);
     settings.budget = Budget::Work(work);
-    settings.min_sweeps = 0;
+    settings.tuning.min_sweeps = 0;
     const Solution s = test::Solve(settings, scene);
     ASSERT_TRUE(s.report.ok());
     for (size_t i = 0; i < scene.rows.size(); ++i) {
@@ -70,7 +70,7 @@ TEST(Nncg, EndsInsideTheBoundsAfterAnyWork) {
       ASSERT_GE(s.x[i], row.lo - rounding) << "row " << i << ", work " << work;
       ASSERT_LE(s.x[i], row.hi + rounding) << "row " << i << ", work " << work;
       // what takes part in few sweeps does not follow its parent after those
-      if (row.parent == kNoRow || row.max_sweeps < 1000) continue;
+      if (row.parent == kNoRow || row.host.max_sweeps < 1000) continue;
       const double most = row.friction * std::max(0.0, s.x[row.parent]);
       ASSERT_LE(std::abs(s.x[i]), most + rounding + 1e-12) << "row " << i << ", work " << work;
     }

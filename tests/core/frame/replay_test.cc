@@ -74,7 +74,7 @@ TEST(BlockWork, BelowTheSweepsThatAreMadeInAnyCaseMakesThose) {
     const Solution expected = test::Solve(Coloured(sweeps), scene);
     for (const Budget& nothing : {Budget::Work(0), Budget::Time(microseconds(0))}) {
       Settings settings = Within(Coloured(1000), nothing);
-      settings.min_sweeps = sweeps;
+      settings.tuning.min_sweeps = sweeps;
       const Solution s = test::Solve(settings, scene);
       EXPECT_TRUE(test::SameBits(s, expected));
       EXPECT_EQ(s.report.sweeps, sweeps);
@@ -138,7 +138,7 @@ struct Rerun {
 
   void Expect(const test::Frame& frame, const Solution& timed) {
     for (Solver& solver : solvers) {
-      solver.settings().replay = &timed.report.replay;
+      solver.settings().tuning.replay = &timed.report.replay;
       const Solution again = test::Solve(&solver, frame.scene, frame.start);
       EXPECT_TRUE(test::SameBits(again, timed));
       EXPECT_EQ(again.report.work, timed.report.work);
@@ -161,7 +161,7 @@ Timed PlayTwice(const Scene& whole, const Settings& settings, microseconds least
   test::Game game(whole);
   const test::ScriptedClock clock = test::UnsteadyClock(microseconds(1), 5);
   Solver solver(settings);
-  solver.settings().clock = &clock;
+  solver.settings().tuning.clock = &clock;
   Rerun rerun(settings);
   Timed timed;
   for (int i = 0; i < 30 && !testing::Test::HasFailure(); ++i) {
@@ -233,7 +233,7 @@ TEST(Replay, EndsAfterTheSweepThatTheClockEndedAfter) {
       const Solution expected = test::Solve(Coloured(sweeps), scene);
       const Replay replay{.work = expected.report.work, .fits = {}};
       Settings settings = Coloured(1000);
-      settings.replay = &replay;
+      settings.tuning.replay = &replay;
       const Solution s = test::Solve(settings, scene);
       EXPECT_TRUE(test::SameBits(s, expected));
       EXPECT_EQ(s.report.work, expected.report.work);
@@ -250,7 +250,7 @@ TEST(Replay, OfATimeThatNeverEndsNeedsNoAnswers) {
   EXPECT_EQ(timed.report.replay.work, Replay{}.work);
   EXPECT_THAT(timed.report.replay.fits, testing::Each(0)) << "never late";
   const Replay replay;
-  settings.replay = &replay;
+  settings.tuning.replay = &replay;
   const Solution again = test::Solve(settings, scene);
   EXPECT_TRUE(test::SameBits(timed, again));
   EXPECT_EQ(again.report.stop, StopReason::kSweepLimit);
@@ -260,7 +260,7 @@ TEST(Replay, OfNegativeWorkIsRefused) {
   for (const std::int64_t work : {std::int64_t{-1}, std::numeric_limits<std::int64_t>::min()}) {
     const Replay replay{.work = work, .fits = {}};
     Settings settings = Coloured(10);
-    settings.replay = &replay;
+    settings.tuning.replay = &replay;
     const Scene scene = test::Wall(3, 3);
     const std::vector<double> start(scene.rows.size(), 0.5);
     const Solution s = test::Solve(settings, scene, start);
@@ -279,7 +279,7 @@ TEST(Replay, WithAnswersMissingTakesNoMoreSteps) {
   for (size_t size = timed.report.replay.fits.size(); size-- > 0;) {
     Replay replay = timed.report.replay;
     replay.fits.resize(size);
-    settings.replay = &replay;
+    settings.tuning.replay = &replay;
     const Solution s = test::Solve(settings, scene);
     EXPECT_TRUE(s.report.ok());
     EXPECT_EQ(s.report.stop, StopReason::kSweepLimit);

@@ -31,7 +31,7 @@ TEST(ShapeOf, ReadsTheLawOfARow) {
   row = Row{};
   EXPECT_EQ(ShapeOf(row, 1), RowShape{.angular = true});
   row.compliance = 1e-300;
-  row.max_sweeps = 3;
+  row.host.max_sweeps = 3;
   row.relaxation = 0.5;
   const RowShape expected{.soft = true, .relaxed = true, .angular = true, .max_sweeps = 3};
   EXPECT_EQ(ShapeOf(row, 1), expected);

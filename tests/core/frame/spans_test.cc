@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The record of who did what when: whole, in order, and without a trace in the results.
-#include "cairn/spans.h"
+#include "cairn/detail/spans.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(Spans, NameEverySweepASweep) {
   settings.method = Method::kPgsSm;
   settings.k_sm = 0;
   SpanRecorder recorder(1, 1000);
-  settings.spans = &recorder;
+  settings.tuning.spans = &recorder;
   ASSERT_TRUE(test::Solve(settings, test::Wall(6, 6)).report.ok());
   std::set<int> sweeps;
   bool set_up_again = false;
@@ -90,7 +90,7 @@ TEST(Spans, OfASolveAreThoseOfItsPhasesAndChangeNoBit) {
     settings.threads = threads;
     const std::vector<test::Solution> expected = test::Play(settings, scene, 3);
     SpanRecorder recorder(threads, 100000);
-    settings.spans = &recorder;
+    settings.tuning.spans = &recorder;
     EXPECT_TRUE(test::SameBits(test::Play(settings, scene, 3), expected)) << threads;
 
     EXPECT_EQ(recorder.dropped(), 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The interior point iterations by themselves.
-#include "core/lcp/barrier.h"
+#include "core/lcp/src/methods/barrier.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "runtime/executor_tbb.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -151,4 +151,4 @@ TEST(Barrier, StopsAdvancing) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

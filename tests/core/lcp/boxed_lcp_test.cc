@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Measure() against its definitions, entry by entry in dense matrices.
-#include "cairn/boxed_lcp.h"
+#include "cairn/lcp/problem.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "cairn/contact_problem.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -142,4 +142,4 @@ TEST(Measure, OfNothingIsNothing) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

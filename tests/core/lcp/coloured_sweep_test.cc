@@ -6,11 +6,11 @@
 #include <numeric>
 #include <vector>
 
-#include "core/lcp/matrix_sweep.h"
+#include "core/lcp/src/methods/matrix_sweep.h"
 #include "runtime/executor_tbb.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -97,4 +97,4 @@ TEST(ColouredSweeps, AreChosenForLargeStencilsOnly) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cairn/contact_problem.h"
-#include "cairn/solver.h"
+#include "cairn/lcp/solver.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
@@ -99,4 +99,4 @@ TEST(HugeNumbers, AreNotMeasuredAsSolved) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -7,7 +7,7 @@
 
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -43,7 +43,7 @@ TEST(LcpWork, ExceedsTheBudgetByASweepAndALookAtTheResidual) {
     for (std::int64_t work = 1; work < 100 * n; work += 3 * n / 2) {
       const Report report = test::Solve(Within(method, Budget::Work(work)), planted.problem).report;
       EXPECT_LE(report.work, work + (1 + kLook) * n) << static_cast<int>(method);
-      EXPECT_EQ(report.elapsed, nanoseconds(0));
+      EXPECT_GT(report.elapsed, nanoseconds(0));
       steps += report.factorisations;
       if (report.stop == StopReason::kWorkSpent) continue;
       EXPECT_TRUE(report.stop == StopReason::kStalled || report.stop == StopReason::kConverged);
@@ -139,7 +139,7 @@ TEST(LcpBudget, ThatIsNeverSpentChangesNothing) {
     settings.tolerance = 1e-8;
     settings.max_sweeps = 500;
     const LcpSolution unlimited = test::Solve(settings, planted.problem);
-    EXPECT_EQ(unlimited.report.elapsed, nanoseconds(0));
+    EXPECT_GT(unlimited.report.elapsed, nanoseconds(0));
     for (const Budget& plenty :
          {Budget::Work(1'000'000'000'000), Budget::Time(std::chrono::hours(24))}) {
       settings.budget = plenty;
@@ -147,7 +147,7 @@ TEST(LcpBudget, ThatIsNeverSpentChangesNothing) {
       EXPECT_TRUE(test::SameBits(unlimited.x, s.x));
       EXPECT_EQ(s.report.work, unlimited.report.work);
       EXPECT_EQ(s.report.stop, unlimited.report.stop);
-      EXPECT_EQ(s.report.elapsed > nanoseconds(0), plenty.kind() == Budget::Kind::kTime);
+      EXPECT_GT(s.report.elapsed, nanoseconds(0));
     }
   }
 }
@@ -164,4 +164,4 @@ TEST(LcpWork, OfSweepsIsTheirRows) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -10,7 +10,7 @@
 #include "cairn/contact_problem.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -255,4 +255,4 @@ TEST(PgsSm, WithoutStepsIsPlainSweeps) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -12,7 +12,7 @@
 #include "problems/problem_folder.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(CertifiedProblems, ArePresent) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

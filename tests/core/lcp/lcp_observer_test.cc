@@ -6,7 +6,7 @@
 
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -163,4 +163,4 @@ TEST(Observer, IsNotCalledForAProblemThatIsRefused) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

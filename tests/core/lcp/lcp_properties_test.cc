@@ -11,7 +11,7 @@
 
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -202,4 +202,4 @@ RC_GTEST_PROP(EveryLcp, HasTheSameSolutionInAnyOrderOfItsRows, ()) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

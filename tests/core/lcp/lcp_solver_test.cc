@@ -9,7 +9,7 @@
 #include "cairn/contact_problem.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -235,4 +235,4 @@ TEST(EveryMethod, StaysInTheBoxOfAnIndefiniteMatrix) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -9,7 +9,7 @@
 #include "cairn/contact_problem.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -161,9 +161,25 @@ TEST(ValidateLcp, RefusesSettingsBeforeTheProblem) {
   VectorXd x = VectorXd::Constant(kRows, 5);
   for (const Settings& bad : {Settings{.k_gs = 0}, Settings{.k_sm = -1}, Settings{.omega = 2},
                               Settings{.active_tolerance = -1}, Settings{.tolerance = kNan}}) {
-    EXPECT_EQ(Solver(bad).Solve(Good(), &x).status, Status::kBadSettings);
+    const Report report = Solver(bad).Solve(Good(), &x);
+    EXPECT_EQ(report.status, Status::kBadSettings);
+    EXPECT_EQ(Describe(report), Describe(FindBadSetting(bad)));
+    EXPECT_GT(report.elapsed.count(), 0);
     EXPECT_EQ(x, VectorXd::Constant(kRows, 5));
   }
+}
+
+TEST(ValidateLcp, NamesTheSetting) {
+  const auto name = [](const Settings& settings) { return FindBadSetting(settings).name; };
+  EXPECT_EQ(name(Settings{}), nullptr);
+  EXPECT_STREQ(name({.method = static_cast<Method>(5)}), "method");
+  EXPECT_STREQ(name({.order = static_cast<SweepOrder>(-1)}), "order");
+  EXPECT_STREQ(name({.max_sweeps = -1}), "max_sweeps");
+  EXPECT_STREQ(name({.min_progress = kNan}), "min_progress");
+  EXPECT_STREQ(name({.budget = Budget::Work(-1)}), "budget");
+  EXPECT_STREQ(name({.min_sweeps = -1}), "min_sweeps");
+  EXPECT_EQ(Describe(FindBadSetting({.threads = 0})), "threads is 0, must be 1 to 1024");
+  EXPECT_EQ(Describe(FindBadSetting({.omega = 0})), "omega is 0, must be above 0 and below 2");
 }
 
 // A solver that has refused something goes on as if it had not seen it.
@@ -199,4 +215,4 @@ TEST(ValidateLcp, AcceptsAMatrixThatIsNotCompressed) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Sweeps over the rows of a matrix against five lines of dense arithmetic.
-#include "core/lcp/matrix_sweep.h"
+#include "core/lcp/src/methods/matrix_sweep.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::VectorXd;
@@ -194,4 +194,4 @@ TEST(Psor, SweepsWithItsOmega) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

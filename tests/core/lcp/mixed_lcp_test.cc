@@ -7,7 +7,7 @@
 #include "cairn/contact_problem.h"
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::MatrixXd;
@@ -165,4 +165,4 @@ TEST(MixedLcp, TakesMatricesThatAreNotCompressed) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The sparse factor of a set of rows against the dense one of Eigen.
-#include "core/lcp/sparse_cholesky.h"
+#include "core/lcp/src/methods/sparse_cholesky.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 
 #include "tests/core/support/lcp_problems.h"
 
-namespace cairn {
+namespace cairn::lcp {
 namespace {
 
 using Eigen::MatrixXd;
@@ -234,4 +234,4 @@ TEST(SparseCholesky, OfNoRowsDoesNothing) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::lcp

@@ -63,8 +63,8 @@ Solved Solve(const std::vector<Body>& bodies, const std::vector<Row>& rows,
 TEST(UnmovedBody, CarriesABallAtItsOwnSpeed) {
   const std::vector<Body> bodies = BallAndPlatform();
   for (const Row& row : {Push(0, 1), TurnedRound(Push(0, 1))}) {
-    for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
-      const Solved solved = Solve(bodies, {row}, {.order = order});
+    for (Path path : {Path::kFast, Path::kReference}) {
+      const Solved solved = Solve(bodies, {row}, {.path = path});
       ASSERT_TRUE(solved.report.ok());
       // 1 kg from -1 m/s to 2 m/s
       EXPECT_NEAR(solved.x[0], 3, 1e-6);
@@ -85,7 +85,7 @@ TEST(UnmovedBody, SharesAPairWithTheWorldAndKeepsItsSpeedToItself) {
   side.angular_b = Vector3d(0, 0, 0.5);  // the platform turns: 1.5 m/s
   Row ground = Push(0, kWorld);
   const std::vector<Row> rows = {ground, side, Push(0, 1)};
-  const Solved solved = Solve(bodies, rows, {.order = SweepOrder::kColoured});
+  const Solved solved = Solve(bodies, rows, {.path = Path::kFast});
   ASSERT_TRUE(solved.report.ok());
   EXPECT_NEAR(solved.velocities[0].linear.y(), 2, 1e-6);
   EXPECT_NEAR(solved.velocities[0].linear.x(), -1.5, 1e-6);
@@ -99,8 +99,8 @@ TEST(UnmovedBody, CountsWhereBothBodiesAreUnmoved) {
   bodies[1].velocity.linear = Vector3d(0, 2, 0);
   for (Row row : {Push(0, 1), TurnedRound(Push(0, 1))}) {
     row.compliance = 0.25;
-    for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
-      EXPECT_NEAR(Solve(bodies, {row}, {.order = order}).x[0], 8, 1e-5);
+    for (Path path : {Path::kFast, Path::kReference}) {
+      EXPECT_NEAR(Solve(bodies, {row}, {.path = path}).x[0], 8, 1e-5);
     }
   }
 }
@@ -121,15 +121,16 @@ TEST(ManyFactorisations, AreRefusedBeyondAThousandAndTakeNoTimeBelow) {
     }
   }
   EXPECT_EQ(Solve(bodies, rows, {.k_sm = INT_MAX}).report.status, Status::kBadSettings);
-  EXPECT_EQ(Solve(bodies, rows, {.refinements = INT_MAX}).report.status, Status::kBadSettings);
+  EXPECT_EQ(Solve(bodies, rows, {.tuning = {.refinements = INT_MAX}}).report.status,
+            Status::kBadSettings);
   Settings settings{.k_sm = 1000};
   settings.k_gs = INT_MAX;
   settings.budget = Budget::Time(std::chrono::milliseconds(2));
-  settings.refinements = 1000;
-  for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
-    settings.order = order;
+  settings.tuning.refinements = 1000;
+  for (Path path : {Path::kFast, Path::kReference}) {
+    settings.path = path;
     const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(2));
-    settings.clock = &clock;
+    settings.tuning.clock = &clock;
     const Report report = Solve(bodies, rows, settings).report;
     EXPECT_TRUE(report.ok());
     // a step may be begun at the end; it was 27 s
@@ -207,7 +208,7 @@ TEST(OwnBounds, HoldToTheLastBitAfterLargeImpulses) {
     std::vector<double> x(rows.size(), start);
     std::vector<Velocity> velocities(2);
     for (int sweeps : {0, 1, 2, 10}) {
-      Solver solver({.order = SweepOrder::kColoured, .max_sweeps = sweeps});
+      Solver solver({.path = Path::kFast, .max_sweeps = sweeps});
       ASSERT_TRUE(solver.Solve({.bodies = bodies, .rows = rows}, x, velocities).ok());
       for (size_t i = 0; i < rows.size(); ++i) {
         EXPECT_GE(x[i], rows[i].lo);
@@ -232,8 +233,8 @@ TEST(BodyIds, ThatLeadToThemselvesDoNotHoldUpTheSolver) {
     bodies[i].id = id;
     rows.push_back(Push(i, kWorld));
   }
-  for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
-    EXPECT_TRUE(Solve(bodies, rows, {.order = order}).report.ok());
+  for (Path path : {Path::kFast, Path::kReference}) {
+    EXPECT_TRUE(Solve(bodies, rows, {.path = path}).report.ok());
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Gyroscopic terms against matrices of Eigen, and against what is known of tops.
-#include "cairn/gyroscopic.h"
+#include "cairn/detail/gyroscopic.h"
 
 #include <gtest/gtest.h>
 

@@ -31,14 +31,14 @@ Scene AnyScene() {
 Settings AnySettings() {
   Settings settings;
   settings.method = *rc::gen::element(Method::kPgs, Method::kPsor, Method::kPgsSm);
-  settings.order = *rc::gen::element(SweepOrder::kAutomatic, SweepOrder::kForward);
-  settings.omega = *rc::gen::element(0.5, 1.0, 1.5);
+  settings.path = *rc::gen::element(Path::kAuto, Path::kReference);
+  settings.tuning.omega = *rc::gen::element(0.5, 1.0, 1.5);
   settings.k_gs = *rc::gen::inRange(1, 8);
   settings.k_sm = *rc::gen::inRange(0, 4);
   settings.max_sweeps = *rc::gen::inRange(0, 60);
   settings.tolerance = *rc::gen::element(0.0, 1e-6, 1e-3);
   settings.step_policy = *rc::gen::element(StepPolicy::kMeasured, StepPolicy::kAlways);
-  settings.refinements = *rc::gen::inRange(1, 4);
+  settings.tuning.refinements = *rc::gen::inRange(1, 4);
   settings.budget = *rc::gen::element(Budget::Unlimited(), Budget::Work(500), Budget::Work(5000));
   return settings;
 }
@@ -56,7 +56,7 @@ RC_GTEST_PROP(EveryProblem, EndsInsideItsBounds, ()) {
   const Solution s = test::Solve(settings, scene, AnyStart(scene));
   RC_ASSERT(s.report.ok());
   // a coefficient, an impulse and their product are rounded where sweeps are made in floats
-  const double rounding = settings.order == SweepOrder::kForward ? 0 : 0x1p-22;
+  const double rounding = settings.path == Path::kReference ? 0 : 0x1p-22;
   const Eigen::VectorXd x = test::ToVector(s.x);
   for (int i = 0; i < x.size(); ++i) {
     RC_ASSERT(std::abs(x[i] - test::Project(scene, x, i, x[i])) <= rounding * std::abs(x[i]));
@@ -70,7 +70,7 @@ RC_GTEST_PROP(EveryProblem, EndsWithTheVelocitiesOfItsImpulses, ()) {
   const test::Dense dense = test::MakeDense(scene);
   const Settings settings = AnySettings();
   const Solution s = test::Solve(settings, scene, AnyStart(scene));
-  const double tolerance = settings.order == SweepOrder::kForward ? 1e-10 : 1e-3;
+  const double tolerance = settings.path == Path::kReference ? 1e-10 : 1e-3;
   const Eigen::VectorXd v =
       dense.free + dense.inverse_mass * (dense.J.transpose() * test::ToVector(s.x));
   RC_ASSERT((test::Flatten(s.v) - v).cwiseAbs().maxCoeff() < tolerance);

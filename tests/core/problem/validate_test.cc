@@ -250,6 +250,11 @@ TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
     std::vector<Velocity> velocities(bodies, {.linear = {p, p, p}, .angular = {p, p, p}});
     const Report report = solver.Solve(scene.problem(), impulses, velocities);
     EXPECT_EQ(report.status, Status::kWrongSize);
+    const std::string expected =
+        rows != 5
+            ? "impulses.rows.size() is " + std::to_string(rows) + ", must be problem.rows.size()"
+            : "velocities.size() is " + std::to_string(bodies) + ", must be problem.bodies.size()";
+    EXPECT_EQ(Describe(report), expected);
     EXPECT_EQ(report.bad_row, -1);
     EXPECT_EQ(report.bad_body, -1);
     for (double x : impulses) EXPECT_EQ(x, 0.25);
@@ -259,43 +264,42 @@ TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
 }
 
 TEST(Validate, RefusesEverySettingOutOfItsRange) {
-  const auto refuse = [](const std::string& what, const std::function<void(Settings*)>& spoil) {
-    SCOPED_TRACE(what);
+  const auto refuse = [](const std::string& name, const std::function<void(Settings*)>& spoil) {
+    SCOPED_TRACE(name);
     Solver solver;
     spoil(&solver.settings());
     const Scene scene = GoodScene();
     const Report report =
         SolveUntouched(&solver, scene, std::vector<double>(scene.rows.size(), 0.25));
     EXPECT_EQ(report.status, Status::kBadSettings);
+    EXPECT_EQ(report.bad_setting.name, name);
+    EXPECT_EQ(Describe(report).find(name + " is "), 0u) << Describe(report);
+    EXPECT_GT(report.elapsed.count(), 0);
   };
-  for (double bad : {-1.0, std::nan("")}) {
-    refuse("active_tolerance", [&](Settings* s) { s->active_tolerance = bad; });
-  }
-  refuse("method", [](Settings* s) { s->method = static_cast<Method>(5); });
-  refuse("order", [](Settings* s) { s->order = static_cast<SweepOrder>(5); });
-  for (Method matrix_only : {Method::kPgsSmLiteral, Method::kInteriorPoint}) {
-    refuse("method", [&](Settings* s) { s->method = matrix_only; });
-  }
+  refuse("method", [](Settings* s) { s->method = static_cast<Method>(3); });
+  refuse("path", [](Settings* s) { s->path = static_cast<Path>(3); });
   refuse("k_gs", [](Settings* s) { s->k_gs = 0; });
   refuse("k_sm", [](Settings* s) { s->k_sm = -1; });
-  refuse("min_sweeps", [](Settings* s) { s->min_sweeps = -2; });
+  refuse("tuning.min_sweeps", [](Settings* s) { s->tuning.min_sweeps = -2; });
   refuse("max_sweeps", [](Settings* s) { s->max_sweeps = -1; });
   for (double bad : {-1e-300, kNan}) {
     refuse("tolerance", [&](Settings* s) { s->tolerance = bad; });
-    refuse("min_progress", [&](Settings* s) { s->min_progress = bad; });
+    refuse("tuning.min_progress", [&](Settings* s) { s->tuning.min_progress = bad; });
   }
-  refuse("time", [](Settings* s) { s->budget = Budget::Time(std::chrono::nanoseconds(-1)); });
-  refuse("work", [](Settings* s) { s->budget = Budget::Work(-1); });
+  refuse("budget", [](Settings* s) { s->budget = Budget::Time(std::chrono::nanoseconds(-1)); });
+  refuse("budget", [](Settings* s) { s->budget = Budget::Work(-1); });
   for (int bad : {-1, 0, 1025}) refuse("threads", [&](Settings* s) { s->threads = bad; });
-  for (double bad : {0.0, 2.0, -1.0, kNan}) refuse("omega", [&](Settings* s) { s->omega = bad; });
-  refuse("lifted", [](Settings* s) { s->lifted_friction = static_cast<LiftedFriction>(2); });
-  refuse("policy", [](Settings* s) { s->step_policy = static_cast<StepPolicy>(-1); });
+  for (double bad : {0.0, 2.0, -1.0, kNan})
+    refuse("tuning.omega", [&](Settings* s) { s->tuning.omega = bad; });
+  refuse("tuning.lifted_friction",
+         [](Settings* s) { s->tuning.lifted_friction = static_cast<detail::LiftedFriction>(2); });
+  refuse("step_policy", [](Settings* s) { s->step_policy = static_cast<StepPolicy>(-1); });
   for (double bad : {0.99e-8, 1.01, kNan})
-    refuse("proximal", [&](Settings* s) { s->proximal = bad; });
+    refuse("tuning.proximal", [&](Settings* s) { s->tuning.proximal = bad; });
   for (double bad : {0.99e-12, 1.01, kNan}) {
     refuse("proximal_joints", [&](Settings* s) { s->proximal_joints = bad; });
   }
-  refuse("refinements", [](Settings* s) { s->refinements = 0; });
+  refuse("tuning.refinements", [](Settings* s) { s->tuning.refinements = 0; });
 }
 
 TEST(Validate, AcceptsTheEndsOfEveryRange) {
@@ -305,18 +309,41 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
                        .max_sweeps = 0,
                        .tolerance = 0,
                        .budget = Budget::Work(0),
-                       .omega = 1e-300,
-                       .proximal = 1e-8,
                        .proximal_joints = 1e-12,
-                       .refinements = 1};
-  EXPECT_EQ(Validate(least), Status::kOk);
+                       .tuning = {.omega = 1e-300, .proximal = 1e-8, .refinements = 1}};
+  EXPECT_EQ(FindBadSetting(least).name, nullptr);
   const Settings most{.tolerance = kInfinity,
-                      .min_progress = kInfinity,
-                      .omega = 1.999999,
-                      .proximal = 1,
-                      .proximal_joints = 1};
-  EXPECT_EQ(Validate(most), Status::kOk);
-  EXPECT_EQ(Validate(Settings{}), Status::kOk);
+                      .proximal_joints = 1,
+                      .tuning = {.min_progress = kInfinity, .omega = 1.999999, .proximal = 1}};
+  EXPECT_EQ(FindBadSetting(most).name, nullptr);
+  EXPECT_EQ(FindBadSetting(Settings{}).name, nullptr);
+}
+
+TEST(Describe, SaysWhichSettingIsOutOfWhichRange) {
+  const auto said = [](const Settings& settings) {
+    return Describe(test::Solve(settings, GoodScene()).report);
+  };
+  EXPECT_EQ(said(Settings{.threads = 0}), "threads is 0, must be 1 to 1024");
+  EXPECT_EQ(said(Settings{.tolerance = -0.25}), "tolerance is -0.25, must be 0 or more");
+  EXPECT_EQ(said(Settings{.tolerance = kNan}), "tolerance is nan, must be 0 or more");
+  EXPECT_EQ(said(Settings{.budget = Budget::Work(-3)}), "budget is -3, must be 0 or more");
+  // the first of two
+  EXPECT_EQ(said(Settings{.k_gs = 0, .threads = 2000}), "k_gs is 0, must be 1 or more");
+}
+
+TEST(Describe, SaysWhereAProblemIsBad) {
+  Scene scene = GoodScene();
+  scene.rows[1].lo = 2;
+  scene.rows[1].hi = 1;
+  EXPECT_EQ(Describe(test::Solve(Settings{}, scene).report),
+            "row 1: " + std::string(Describe(Status::kBadBounds)));
+  scene.bodies[2].inv_mass = -1;
+  EXPECT_EQ(Describe(test::Solve(Settings{}, scene).report),
+            "body 2: " + std::string(Describe(Status::kBadMass)));
+  EXPECT_EQ(Describe(Solver().Solve(ContactProblem{}, Impulses{}, {})),
+            Describe(Status::kEmptyProblem));
+  EXPECT_EQ(Describe(test::Solve(Settings{}, GoodScene()).report),
+            Describe(StopReason::kStationary));
 }
 
 /// A body that turns about one axis only, in the rounding of a float engine: the matrix has rank 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cairn/recorder.h"
+#include "cairn/detail/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

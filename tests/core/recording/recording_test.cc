@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Recordings come back as they were, to the bit, and mean the same on every machine.
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ Answer SolveAgain(const Recording& recording) {
                 .joint_rows = recording.joint_impulses,
                 .velocities = std::vector<Velocity>(recording.bodies.size())};
   Solver solver(recording.settings);
-  if (recording.replay) solver.settings().replay = &*recording.replay;
+  if (recording.replay) solver.settings().tuning.replay = &*recording.replay;
   solver.Solve(recording.problem(), {answer.rows, answer.points, answer.twists, answer.joint_rows},
                answer.velocities, &answer.report);
   return answer;
@@ -101,46 +101,51 @@ TEST(Recording, KeepsEverySettingButPointers) {
   Recording recording = RandomRecording(2);
   Replay replay;
   recording.settings = {.method = Method::kPsor,
-                        .order = SweepOrder::kSymmetric,
+                        .path = Path::kReference,
                         .k_gs = 7,
                         .k_sm = 3,
                         .max_sweeps = 11,
                         .tolerance = 1e-4,
-                        .min_progress = 1e-7,
                         .budget = Budget::Time(std::chrono::nanoseconds(1234567890123)),
-                        .replay = &replay,
-                        .min_sweeps = 2,
                         .threads = 5,
-                        .omega = 1.25,
-                        .lifted_friction = LiftedFriction::kHold,
                         .step_policy = StepPolicy::kAlways,
-                        .proximal = 1e-5,
                         .proximal_joints = 1e-7,
-                        .refinements = 9,
-                        .active_tolerance = 0.125};
+                        .tuning = {.min_progress = 1e-7,
+                                   .min_sweeps = 2,
+                                   .omega = 1.25,
+                                   .proximal = 1e-5,
+                                   .refinements = 9,
+                                   .lifted_friction = detail::LiftedFriction::kHold,
+                                   .replay = &replay}};
   const Settings read = Decoded(EncodeAll(recording)).settings;
   EXPECT_EQ(read.method, Method::kPsor);
-  EXPECT_EQ(read.order, SweepOrder::kSymmetric);
+  EXPECT_EQ(read.path, Path::kReference);
   EXPECT_EQ(read.k_gs, 7);
   EXPECT_EQ(read.k_sm, 3);
   EXPECT_EQ(read.max_sweeps, 11);
   EXPECT_EQ(read.tolerance, 1e-4);
-  EXPECT_EQ(read.min_progress, 1e-7);
+  EXPECT_EQ(read.tuning.min_progress, 1e-7);
   EXPECT_EQ(read.budget, recording.settings.budget);
-  EXPECT_EQ(read.replay, nullptr);
-  EXPECT_EQ(read.min_sweeps, 2);
+  EXPECT_EQ(read.tuning.replay, nullptr);
+  EXPECT_EQ(read.tuning.min_sweeps, 2);
   EXPECT_EQ(read.threads, 5);
-  EXPECT_EQ(read.omega, 1.25);
-  EXPECT_EQ(read.lifted_friction, LiftedFriction::kHold);
+  EXPECT_EQ(read.tuning.omega, 1.25);
+  EXPECT_EQ(read.tuning.lifted_friction, detail::LiftedFriction::kHold);
   EXPECT_EQ(read.step_policy, StepPolicy::kAlways);
-  EXPECT_EQ(read.proximal, 1e-5);
+  EXPECT_EQ(read.tuning.proximal, 1e-5);
   EXPECT_EQ(read.proximal_joints, 1e-7);
-  EXPECT_EQ(read.refinements, 9);
-  EXPECT_EQ(read.active_tolerance, 0.125);
+  EXPECT_EQ(read.tuning.refinements, 9);
   for (const Budget& budget : {Budget::Unlimited(), Budget::Work(77)}) {
     recording.settings.budget = budget;
     EXPECT_EQ(Decoded(EncodeAll(recording)).settings.budget, budget);
   }
+  for (const Path path : {Path::kAuto, Path::kFast}) {
+    recording.settings.path = path;
+    EXPECT_EQ(Decoded(EncodeAll(recording)).settings.path, path);
+  }
+  recording.settings.steps = false;
+  EXPECT_EQ(Decoded(EncodeAll(recording)).settings.k_sm, 0);
+  EXPECT_EQ(recording.settings.k_sm, 3);
 }
 
 // docs/recording.md has these numbers: files of others would break with them.

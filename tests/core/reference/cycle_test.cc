@@ -20,7 +20,7 @@ TEST(Steps, SolveAChainWithOneFactorisationWhereSweepsDoNot) {
   const Scene chain = test::HangingChain(50, 100);
   Settings settings = AlwaysSteps(10);
   settings.k_sm = 1;
-  settings.refinements = 2;
+  settings.tuning.refinements = 2;
   settings.proximal_joints = 1e-8;  // no joint of a chain says what another one says
   const Solution stepped = test::Solve(settings, chain);
   EXPECT_EQ(stepped.report.factorisations, 1);
@@ -128,9 +128,9 @@ TEST(Steps, AreNotTakenUnlessAskedFor) {
 // In blocks and row by row. A budget of ten sweeps holds no step, which costs more than that.
 TEST(Steps, AreAccountedForWithTheReasonWhyThereWereNoMore) {
   const Scene tower = test::Tower(6);
-  for (const SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
     const auto island = [&](Settings settings) {
-      settings.order = order;
+      settings.path = path;
       return test::Solve(settings, tower).report.islands.at(0);
     };
     const IslandReport one = island(AlwaysSteps(10)), two = island(AlwaysSteps(20));
@@ -164,7 +164,7 @@ TEST(Steps, AreChargedToIslandsByTheirRows) {
       }
     }
     Settings settings = AlwaysSteps(10);
-    settings.order = SweepOrder::kColoured;
+    settings.path = Path::kFast;
     std::vector<std::int64_t> of_islands;
     for (const IslandReport& island : test::Solve(settings, scene).report.islands) {
       of_islands.push_back(island.step_work);

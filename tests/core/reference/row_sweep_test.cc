@@ -76,11 +76,11 @@ TEST(SweepRows, ReportTheLargestVelocityTheyMoved) {
   const PackedIsland packed = packer.Pack(island);
   IslandState state = Packer::Start(packed, island, std::vector<double>(2, 0.0));
 
-  EXPECT_EQ(SweepRows(packed, {0, 1, 0}, LiftedFriction::kRelease, &state), 0.125);
+  EXPECT_EQ(SweepRows(packed, {0, 1, 0}, detail::LiftedFriction::kRelease, &state), 0.125);
   EXPECT_EQ(state.x, (std::vector<double>{0.03125, 0}));
-  EXPECT_EQ(SweepRows(packed, {0, 2, 0}, LiftedFriction::kRelease, &state), 0.5);
+  EXPECT_EQ(SweepRows(packed, {0, 2, 0}, detail::LiftedFriction::kRelease, &state), 0.5);
   EXPECT_EQ(state.x, (std::vector<double>{0.03125, -0.125}));
-  EXPECT_EQ(SweepRows(packed, {0, 2, 0}, LiftedFriction::kRelease, &state), 0);
+  EXPECT_EQ(SweepRows(packed, {0, 2, 0}, detail::LiftedFriction::kRelease, &state), 0);
 }
 
 // Blocks are only where the budget is looked at.
@@ -93,10 +93,10 @@ TEST(SweepRows, InBlocksAreTheSweepsInOne) {
     const std::vector<double> start(scene.rows.size(), 0);
     IslandState whole = Packer::Start(packed, island, start), blocks = whole;
     for (int sweep = 0; sweep < 3; ++sweep) {
-      SweepRows(packed, {0, rows, sweep}, LiftedFriction::kRelease, &whole);
+      SweepRows(packed, {0, rows, sweep}, detail::LiftedFriction::kRelease, &whole);
       for (int begin = 0; begin < rows; begin += 7) {
-        SweepRows(packed, {begin, std::min(begin + 7, rows), sweep}, LiftedFriction::kRelease,
-                  &blocks);
+        SweepRows(packed, {begin, std::min(begin + 7, rows), sweep},
+                  detail::LiftedFriction::kRelease, &blocks);
       }
     }
     EXPECT_EQ(whole.x, blocks.x);

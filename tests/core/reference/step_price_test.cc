@@ -32,7 +32,7 @@ class Asked {
     while (!Pays() && pause < 1000) ++pause;
     return pause;
   }
-  double Softened() { return memory_.Step(settings_).proximal / settings_.proximal; }
+  double Softened() { return memory_.Step(settings_).proximal / settings_.tuning.proximal; }
   double Cost() { return StepCost(packed_.island, settings_, settings_.k_sm, SystemOf(&memory_)); }
   IslandMemory& memory() { return memory_; }
 

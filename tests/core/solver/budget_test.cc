@@ -132,7 +132,7 @@ TEST(Work, GivesTheSameBitsTwice) {
     const Solution first = test::Solve(settings, scene), second = test::Solve(settings, scene);
     EXPECT_TRUE(test::SameBits(first, second));
     EXPECT_EQ(first.report.work, second.report.work);
-    EXPECT_EQ(first.report.elapsed, nanoseconds(0));
+    EXPECT_GT(first.report.elapsed, nanoseconds(0));
   }
 }
 
@@ -172,7 +172,8 @@ TEST(Budget, OfNothingGivesTheProjectedWarmStart) {
   const Eigen::VectorXd v = dense.free + dense.inverse_mass * (dense.J.transpose() * expected);
   for (const Budget& nothing : {Budget::Work(0), Budget::Time(nanoseconds(0))}) {
     const Solution s = test::Solve(
-        Within({.method = Method::kPgs, .order = SweepOrder::kForward, .min_sweeps = 0}, nothing),
+        Within({.method = Method::kPgs, .path = Path::kReference, .tuning = {.min_sweeps = 0}},
+               nothing),
         scene, start);
     EXPECT_EQ(test::ToVector(s.x), expected);
     EXPECT_LT((test::Flatten(s.v) - v).cwiseAbs().maxCoeff(), 1e-12);
@@ -191,7 +192,7 @@ TEST(Budget, OfNothingStillMakesTheSweepsThatAreMadeInAnyCase) {
     const Solution expected = test::Solve(test::PlainSweeps(sweeps), scene);
     for (const Budget& nothing : {Budget::Work(0), Budget::Time(nanoseconds(0))}) {
       Settings settings = Within(test::AlwaysSteps(100), nothing);
-      settings.min_sweeps = sweeps;
+      settings.tuning.min_sweeps = sweeps;
       const Solution s = test::Solve(settings, scene);
       EXPECT_TRUE(test::SameBits(s, expected)) << sweeps;
       EXPECT_EQ(s.report.sweeps, sweeps);
@@ -203,7 +204,7 @@ TEST(Budget, OfNothingStillMakesTheSweepsThatAreMadeInAnyCase) {
 TEST(Budget, OfNothingMakesNoMoreThanMaxSweeps) {
   const Scene scene = BigPile(8);
   Settings settings = Within(test::PlainSweeps(2), Budget::Work(0));
-  settings.min_sweeps = 5;
+  settings.tuning.min_sweeps = 5;
   EXPECT_EQ(test::Solve(settings, scene).report.sweeps, 2);
 }
 
@@ -211,14 +212,14 @@ TEST(Budget, ThatIsNeverSpentChangesNothing) {
   const Scene scene = BigPile(5);
   for (const Settings& settings : {test::PlainSweeps(60), test::AlwaysSteps(60)}) {
     const Solution unlimited = test::Solve(settings, scene);
-    EXPECT_EQ(unlimited.report.elapsed, nanoseconds(0));
+    EXPECT_GT(unlimited.report.elapsed, nanoseconds(0));
     for (const Budget& plenty :
          {Budget::Work(1'000'000'000'000), Budget::Time(std::chrono::hours(24))}) {
       const Solution s = test::Solve(Within(settings, plenty), scene);
       EXPECT_TRUE(test::SameBits(unlimited, s));
       EXPECT_EQ(s.report.work, unlimited.report.work);
       EXPECT_EQ(s.report.stop, unlimited.report.stop);
-      EXPECT_EQ(s.report.elapsed > nanoseconds(0), plenty.kind() == Budget::Kind::kTime);
+      EXPECT_GT(s.report.elapsed, nanoseconds(0));
     }
   }
 }
@@ -254,7 +255,7 @@ TEST(Budget, OfTimeSaysWhatStepsTookAndWereToTake) {
   const Budget day = Budget::Time(std::chrono::hours(24));
   const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(1));
   Settings timed = Within(test::AlwaysSteps(20), day);
-  timed.clock = &clock;
+  timed.tuning.clock = &clock;
   const Report report = test::Solve(timed, scene).report;
   EXPECT_GT(report.factorisations, 0);
   EXPECT_GT(report.step_predicted, nanoseconds(0));
@@ -318,12 +319,13 @@ TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
 TEST(Budget, EndsAProblemOfAMillionRows) {
   Scene scene = MillionRows();
   const auto start = std::chrono::steady_clock::now();
-  const Report work = test::Solve(Within({.min_sweeps = 0}, Budget::Work(1000)), scene).report;
+  const Report work =
+      test::Solve(Within({.tuning = {.min_sweeps = 0}}, Budget::Work(1000)), scene).report;
   EXPECT_TRUE(work.ok());
   EXPECT_EQ(work.stop, StopReason::kWorkSpent);
   EXPECT_LT(work.work, 1000 + kUnit);
   const Budget millisecond = Budget::Time(std::chrono::milliseconds(1));
-  EXPECT_EQ(test::Solve(Within({.min_sweeps = 0}, millisecond), scene).report.stop,
+  EXPECT_EQ(test::Solve(Within({.tuning = {.min_sweeps = 0}}, millisecond), scene).report.stop,
             StopReason::kTimeSpent);
 
   scene.rows.back().parent = 999'999;

@@ -28,8 +28,8 @@ Scene TowersAndChains() {
 Settings TimedSteps(const Clock* clock) {
   Settings settings = test::ColouredSteps(60);
   settings.budget = Budget::Time(milliseconds(1));
-  settings.min_sweeps = Settings::kByBudget;
-  settings.clock = clock;
+  settings.tuning.min_sweeps = Tuning::kByBudget;
+  settings.tuning.clock = clock;
   return settings;
 }
 
@@ -58,14 +58,14 @@ TEST(Clock, MayEndAFrameAnywhereAndItIsMadeAgain) {
     const Ended ended = EndAt(look, scene);
     const Report& report = ended.solution.report;
     ASSERT_TRUE(report.ok());
-    EXPECT_GE(report.sweeps, Settings::kLateSweeps);
+    EXPECT_GE(report.sweeps, Tuning::kLateSweeps);
     // one for each of the least sweeps, and some to measure and to write
     EXPECT_LE(ended.looks_after, 40);
     (report.factorisations > 0 ? stepped : given_up) += 1;
 
     Settings again = TimedSteps(nullptr);
     again.budget = Budget::Unlimited();
-    again.replay = &report.replay;
+    again.tuning.replay = &report.replay;
     const Solution replayed = test::Solve(again, scene);
     EXPECT_TRUE(test::SameBits(replayed, ended.solution));
     EXPECT_EQ(replayed.report.work, report.work);
@@ -85,7 +85,7 @@ TEST(Clock, ThatEndsAStepLeavesWhatSweepsMade) {
     Settings settings = TimedSteps(nullptr);
     settings.acceleration = Acceleration::kNone;
     ScriptedClock clock([look](int now) { return now == look ? hours(1) : nanoseconds(0); });
-    settings.clock = &clock;
+    settings.tuning.clock = &clock;
     const Solution s = test::Solve(settings, scene);
     if (s.report.sweeps != 5 || s.report.factorisations > 0) continue;
     EXPECT_TRUE(test::SameBits(s, plain)) << look;
@@ -105,11 +105,10 @@ TEST(Clock, ThatStandsStillLeavesTheEndToTheSweepLimit) {
     const Report report = test::Solve(&solver, scene).report;
     ASSERT_TRUE(report.ok());
     EXPECT_EQ(report.stop, StopReason::kSweepLimit);
-    EXPECT_EQ(report.elapsed, nanoseconds(0));
   }
   // when it goes on again, so do budgets
   const ScriptedClock clock = test::TickingClock(microseconds(20));
-  solver.settings().clock = &clock;
+  solver.settings().tuning.clock = &clock;
   solver.settings().max_sweeps = 1'000'000;
   int last = 0;
   for (int frame = 0; frame < 60; ++frame) {
@@ -152,7 +151,7 @@ TEST(Clock, IsNotReadWithoutABudgetOfTime) {
     Settings settings = TimedSteps(&clock);
     settings.budget = budget;
     const Solution with = test::Solve(settings, scene);
-    settings.clock = nullptr;
+    settings.tuning.clock = nullptr;
     EXPECT_TRUE(test::SameBits(with, test::Solve(settings, scene)));
   }
   EXPECT_EQ(clock.looks(), 0);

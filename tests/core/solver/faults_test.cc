@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/lcp/solver.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/manifold_problems.h"
 #include "tests/core/support/test_clock.h"
@@ -114,16 +115,16 @@ TEST(NoMemory, LeavesASolverUnderABudgetOfTimeAsNew) {
   const test::ScriptedClock clock = test::TickingClock(std::chrono::microseconds(10));
   FailEverywhere({.tolerance = 0,
                   .budget = Budget::Time(std::chrono::microseconds(300)),
-                  .clock = &clock,
-                  .step_policy = StepPolicy::kAlways});
+                  .step_policy = StepPolicy::kAlways,
+                  .tuning = {.clock = &clock}});
 }
 
 TEST(NoMemory, LeavesASolverOfRowsAsNew) {
-  FailEverywhere({.order = SweepOrder::kForward, .max_sweeps = 12, .tolerance = 0});
+  FailEverywhere({.path = Path::kReference, .max_sweeps = 12, .tolerance = 0});
 }
 
 TEST(NoMemory, LeavesASolverOfMatricesAsNew) {
-  BoxedLcp problem;
+  lcp::BoxedLcp problem;
   const int size = 12;
   problem.M.resize(size, size);
   for (int i = 0; i < size; ++i) {
@@ -135,11 +136,11 @@ TEST(NoMemory, LeavesASolverOfMatricesAsNew) {
   problem.lo = Eigen::VectorXd::Zero(size);
   problem.hi = Eigen::VectorXd::Constant(size, kInfinity);
   const Eigen::VectorXd start = Eigen::VectorXd::Ones(size);
-  for (Method method : {Method::kPgs, Method::kPgsSm, Method::kInteriorPoint}) {
+  for (lcp::Method method : {lcp::Method::kPgs, lcp::Method::kPgsSm, lcp::Method::kInteriorPoint}) {
     Eigen::VectorXd expected = start;
-    (void)Solver({.method = method}).Solve(problem, &expected);
+    (void)lcp::Solver({.method = method}).Solve(problem, &expected);
     for (long call = 0;; ++call) {
-      Solver solver({.method = method});
+      lcp::Solver solver({.method = method});
       Eigen::VectorXd x = start;
       bool threw = false;
       try {

@@ -15,7 +15,7 @@ namespace {
 
 TEST(Describe, SaysSomethingElseForEveryStatus) {
   std::set<std::string_view> sentences;
-  for (int i = 0; i <= static_cast<int>(Status::kBadFriction); ++i) {
+  for (int i = 0; i <= static_cast<int>(Status::kOverflow); ++i) {
     const std::string_view sentence = Describe(static_cast<Status>(i));
     EXPECT_GT(sentence.size(), 10u) << i;
     EXPECT_NE(sentence.back(), '.') << sentence;
@@ -67,8 +67,8 @@ IslandReport OfFallingBall(Settings settings) {
 }
 
 TEST(IslandReport, SaysHowFarTheStartWasFromTheSolution) {
-  for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
-    const IslandReport island = OfFallingBall({.order = order});
+  for (Path path : {Path::kFast, Path::kReference}) {
+    const IslandReport island = OfFallingBall({.path = path});
     EXPECT_FLOAT_EQ(island.residual_before.max, 4);
     EXPECT_FLOAT_EQ(island.residual_before.energy, 4 * std::sqrt(2.0));
     EXPECT_EQ(island.residual_before.max_angular, 0);
@@ -77,8 +77,8 @@ TEST(IslandReport, SaysHowFarTheStartWasFromTheSolution) {
 }
 
 TEST(IslandReport, OfNoSweepsIsAsFarAfterAsBefore) {
-  for (SweepOrder order : {SweepOrder::kColoured, SweepOrder::kForward}) {
-    const IslandReport island = OfFallingBall({.order = order, .max_sweeps = 0});
+  for (Path path : {Path::kFast, Path::kReference}) {
+    const IslandReport island = OfFallingBall({.path = path, .max_sweeps = 0});
     EXPECT_FLOAT_EQ(island.residual.max, 4);
     EXPECT_EQ(island.residual_before.max, island.residual.max);
     EXPECT_EQ(island.residual_before.energy, island.residual.energy);

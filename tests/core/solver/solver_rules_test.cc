@@ -69,7 +69,7 @@ TEST(LiftedFriction, IsReleasedOrHeld) {
   EXPECT_EQ(released.x, (std::vector<double>{0, 0}));
   EXPECT_EQ(released.v[0].linear, Vector3d(0, 0, 1));
 
-  settings.lifted_friction = LiftedFriction::kHold;
+  settings.tuning.lifted_friction = detail::LiftedFriction::kHold;
   const Solution held = test::Solve(settings, LeavingMass(), {1, 0.5});
   EXPECT_EQ(held.x, (std::vector<double>{0, 0.5}));
   EXPECT_EQ(held.v[0].linear, Vector3d(0.5, 0, 1));
@@ -78,7 +78,7 @@ TEST(LiftedFriction, IsReleasedOrHeld) {
 // Held or not, friction of a contact that starts without impulse starts without impulse.
 TEST(LiftedFriction, IsNotHeldFromAWarmStartOutsideItsBounds) {
   Settings settings = PlainSweeps(10);
-  settings.lifted_friction = LiftedFriction::kHold;
+  settings.tuning.lifted_friction = detail::LiftedFriction::kHold;
   EXPECT_EQ(test::Solve(settings, LeavingMass(), {0, 0.5}).x, (std::vector<double>{0, 0}));
 }
 
@@ -87,7 +87,7 @@ TEST(Row, TakesPartInAsManySweepsAsItSays) {
   for (const auto& [sweeps, expected] : {std::pair(0, 0.0), {1, 0.5}, {2, 0.75}, {4, 0.9375}}) {
     Scene scene = FallingMass();
     scene.rows[0].relaxation = 0.5;
-    scene.rows[0].max_sweeps = sweeps;
+    scene.rows[0].host.max_sweeps = sweeps;
     EXPECT_EQ(test::Solve(PlainSweeps(50), scene).x[0], expected) << sweeps;
   }
 }
@@ -101,14 +101,14 @@ TEST(Row, LeavesOthersSweepingWhenItsSweepsAreOver) {
     scene.rows[i].relaxation = 0.5;
   }
   scene.rows.push_back(test::LinearRow(0, 1, {0, 1, 0}));  // one island
-  scene.rows[0].max_sweeps = 1;
+  scene.rows[0].host.max_sweeps = 1;
   EXPECT_EQ(test::Solve(PlainSweeps(3), scene).x, (std::vector<double>{0.5, 0.875, 0}));
 }
 
 // 1.5 of every correction: x = 1.5, then 1.5 - 1.5 * 0.5 = 0.75, then 0.75 + 1.5 * 0.25 = 1.125.
 TEST(Psor, OverrelaxesByOmegaAndOnlyWhenAsked) {
   Settings settings = PlainSweeps(0);
-  settings.omega = 1.5;
+  settings.tuning.omega = 1.5;
   for (const auto& [sweeps, expected] : {std::pair(1, 1.5), {2, 0.75}, {3, 1.125}}) {
     settings.max_sweeps = sweeps;
     settings.method = Method::kPsor;
@@ -128,7 +128,7 @@ TEST(Psor, OverrelaxesOnTopOfTheRowsOwnRelaxation) {
   scene.rows[0].relaxation = 0.5;
   Settings settings = PlainSweeps(1);
   settings.method = Method::kPsor;
-  settings.omega = 1.5;
+  settings.tuning.omega = 1.5;
   EXPECT_EQ(test::Solve(settings, scene).x[0], 0.75);
 }
 
@@ -139,7 +139,7 @@ TEST(MinProgress, EndsTheIterationAfterTheFirstSweepThatMovesNothingFurther) {
   scene.rows[0].relaxation = 0.5;
   Settings settings = PlainSweeps(50);
   for (const auto& [progress, sweeps] : {std::pair(0.2, 3), {0.25, 2}, {10.0, 1}}) {
-    settings.min_progress = progress;
+    settings.tuning.min_progress = progress;
     const Solution s = test::Solve(settings, scene);
     EXPECT_EQ(s.report.sweeps, sweeps);
     EXPECT_EQ(s.report.stop, StopReason::kStationary);
@@ -153,7 +153,7 @@ TEST(MinProgress, IsAVelocity) {
   scene.bodies[0].inv_mass = 1000;
   scene.rows[0].relaxation = 0.5;
   Settings settings = PlainSweeps(50);
-  settings.min_progress = 0.2;
+  settings.tuning.min_progress = 0.2;
   EXPECT_EQ(test::Solve(settings, scene).report.sweeps, 3);
 }
 

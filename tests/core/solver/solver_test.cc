@@ -23,7 +23,7 @@ std::vector<Settings> Methods() {
   const Settings sweeps{.method = Method::kPgs, .max_sweeps = 10000, .tolerance = 1e-13};
   Settings psor = sweeps, steps = sweeps;
   psor.method = Method::kPsor;
-  psor.omega = 1.1;
+  psor.tuning.omega = 1.1;
   steps.method = Method::kPgsSm;
   steps.step_policy = StepPolicy::kAlways;
   return {sweeps, psor, steps};

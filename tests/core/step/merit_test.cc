@@ -40,15 +40,15 @@ double KineticEnergy(const Scene& scene, const std::vector<Velocity>& v) {
   return energy;
 }
 
-Settings Path(SweepOrder order, int sweeps) {
+Settings SweepsOn(Path path, int sweeps) {
   Settings settings = test::PlainSweeps(sweeps);
   settings.method = Method::kPgsSm;
   settings.k_sm = 0;
-  settings.order = order;
+  settings.path = path;
   return settings;
 }
 
-constexpr SweepOrder kPaths[] = {SweepOrder::kForward, SweepOrder::kColoured};
+constexpr Path kPaths[] = {Path::kReference, Path::kFast};
 
 TEST(Merit, IsTheEnergyAfterTheStepLessWhatTargetsPutIn) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -71,8 +71,8 @@ TEST(Merit, OfSweepsFromNoneIsNeverAboveNone) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scene scene = MovingPile(seed);
     for (const int sweeps : {1, 2, 5, 40}) {
-      for (const SweepOrder order : kPaths) {
-        const Report report = test::Solve(Path(order, sweeps), scene).report;
+      for (const Path path : kPaths) {
+        const Report report = test::Solve(SweepsOn(path, sweeps), scene).report;
         EXPECT_EQ(report.guarded, 0);
         for (const IslandReport& island : report.islands) EXPECT_LE(island.merit, 0);
       }
@@ -83,7 +83,7 @@ TEST(Merit, OfSweepsFromNoneIsNeverAboveNone) {
 TEST(Merit, OfBlocksIsThatOfDoubles) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Scene scene = MovingPile(seed);
-    const Solution s = test::Solve(Path(SweepOrder::kColoured, 10), scene);
+    const Solution s = test::Solve(SweepsOn(Path::kFast, 10), scene);
     const Report measured = Measure(scene.problem(), s.x);
     ASSERT_EQ(s.report.islands.size(), measured.islands.size());
     for (size_t i = 0; i < measured.islands.size(); ++i) {
@@ -140,11 +140,11 @@ TEST(Guards, ScaleAStartThatIsWorseThanNone) {
   const std::vector<double> good = test::Solve(test::PlainSweeps(200), scene).x;
   std::vector<double> rotten = good;
   for (double& x : rotten) x *= 1000;
-  for (const SweepOrder order : kPaths) {
-    const Solution kept = test::Solve(Path(order, 3), scene, good);
+  for (const Path path : kPaths) {
+    const Solution kept = test::Solve(SweepsOn(path, 3), scene, good);
     EXPECT_FALSE(kept.report.islands[0].guards.start);
-    const Solution cold = test::Solve(Path(order, 3), scene);
-    const Solution guarded = test::Solve(Path(order, 3), scene, rotten);
+    const Solution cold = test::Solve(SweepsOn(path, 3), scene);
+    const Solution guarded = test::Solve(SweepsOn(path, 3), scene, rotten);
     EXPECT_TRUE(guarded.report.islands[0].guards.start);
     EXPECT_EQ(guarded.report.guarded, 1);
     // scaled by a thousandth, it is the good start again
@@ -156,8 +156,8 @@ TEST(Guards, LeaveAStartAloneThatNobodySweeps) {
   const Scene scene = test::Tower(2);
   std::vector<double> rotten(scene.rows.size(), 0.0);
   for (size_t i = 0; i < rotten.size(); ++i) rotten[i] = scene.rows[i].parent == kNoRow ? 100 : 0;
-  for (const SweepOrder order : kPaths) {
-    const Solution s = test::Solve(Path(order, 0), scene, rotten);
+  for (const Path path : kPaths) {
+    const Solution s = test::Solve(SweepsOn(path, 0), scene, rotten);
     EXPECT_EQ(s.x, rotten);
     EXPECT_EQ(s.report.guarded, 0);
   }
@@ -192,9 +192,9 @@ double LargestImpulse(const Solution& s) {
 // floats could not hold it.
 TEST(Guards, KeepImpulsesOfRedundantJointsWhereFloatsCanHoldThem) {
   const Scene scene = ContradictoryBridge(10, 0.1);
-  for (const SweepOrder order : kPaths) {
+  for (const Path path : kPaths) {
     Settings settings = test::AlwaysSteps(10);
-    settings.order = order;
+    settings.path = path;
     Solver solver(settings);
     Solution s;
     double first = 0, last = 0;
@@ -212,9 +212,9 @@ TEST(Guards, KeepImpulsesOfRedundantJointsWhereFloatsCanHoldThem) {
 // With next to nothing to soften them, pins that contradict each other by 1 m/s push with 1e12 m/s.
 TEST(Guards, UndoAStepThatLeavesImpulsesThatFloatsCannotHold) {
   const Scene scene = ContradictoryBridge(4, 1);
-  for (const SweepOrder order : kPaths) {
+  for (const Path path : kPaths) {
     Settings settings = test::AlwaysSteps(10);
-    settings.order = order;
+    settings.path = path;
     settings.proximal_joints = 1e-12;
     const Solution s = test::Solve(settings, scene);
     ASSERT_TRUE(s.report.ok());
@@ -230,7 +230,7 @@ TEST(Guards, UndoAStepThatLeavesImpulsesThatFloatsCannotHold) {
 // Friction of 20 times a pile's, over-relaxed and cut as its normals shrink, from a random start:
 // there even sweeps end worse than they began, on a few in a hundred.
 TEST(Guards, ScaleAResultThatIsWorseThanNone) {
-  for (const SweepOrder order : kPaths) {
+  for (const Path path : kPaths) {
     int guarded = 0;
     for (std::uint64_t seed = 1; seed <= 400; ++seed) {
       Scene scene = test::RandomPile({.bodies = 5, .contacts = 12, .world_share = 0.3}, seed);
@@ -241,7 +241,7 @@ TEST(Guards, ScaleAResultThatIsWorseThanNone) {
         scene.rows[i].friction *= 20;
         start[i] = random.Uniform(-1, 1);
       }
-      const Solution s = test::Solve(Path(order, 4), scene, start);
+      const Solution s = test::Solve(SweepsOn(path, 4), scene, start);
       ASSERT_TRUE(s.report.ok());
       for (const IslandReport& island : s.report.islands) {
         guarded += island.guards.result ? 1 : 0;
@@ -256,9 +256,9 @@ TEST(Guards, ScaleAResultThatIsWorseThanNone) {
 TEST(Guards, TakeNothingFromALoadedChain) {
   // 3,000 m/s are what impulses of a chain with 10,000 times a link come to
   const Scene scene = test::HangingChain(30, 1e4);
-  for (const SweepOrder order : kPaths) {
+  for (const Path path : kPaths) {
     Settings settings = test::AlwaysSteps(10);
-    settings.order = order;
+    settings.path = path;
     Solver solver(settings);
     Solution s;
     for (int frame = 0; frame < 20; ++frame) {

@@ -19,7 +19,7 @@ std::vector<Solution> Frames(const Scene& scene, int frames, double work_of_row,
                              int threads = 1) {
   Settings settings;
   settings.threads = threads;
-  settings.order = SweepOrder::kColoured;
+  settings.path = Path::kFast;
   settings.tolerance = 0;
   settings.max_sweeps = std::numeric_limits<int>::max();
   settings.k_sm = k_sm;
@@ -49,7 +49,7 @@ TEST(StepBudget, IsChargedForTheAnalysisOfAGraph) {
   constexpr int kWidth = 8, kHeight = 6;
   const Scene wall = test::Wall(kWidth, kHeight);
   Settings settings = test::AlwaysSteps(30);
-  settings.order = SweepOrder::kColoured;
+  settings.path = Path::kFast;
   Solver solver(settings);
   const Report first = test::Solve(&solver, wall).report;
   const Report again = test::Solve(&solver, wall).report;

@@ -17,7 +17,7 @@ constexpr int kSweeps = 10;
 
 Settings Weighed() {
   Settings settings;
-  settings.order = SweepOrder::kColoured;
+  settings.path = Path::kFast;
   settings.step_policy = StepPolicy::kWeighed;
   settings.max_sweeps = kSweeps;
   settings.tolerance = 0;

@@ -131,7 +131,7 @@ Scene WithEveryLaw(Scene scene, std::uint64_t seed) {
     Row& row = scene.rows[i];
     if (random.Index(4) == 0) row.compliance = random.Uniform(0.01, 0.5);
     if (random.Index(6) == 0) row.relaxation = random.Uniform(0.5, 1.3);
-    if (random.Index(8) == 0) row.max_sweeps = random.Index(6);
+    if (random.Index(8) == 0) row.host.max_sweeps = random.Index(6);
     if (row.parent == kNoRow && row.lo == -kInfinity && random.Index(3) == 0) {
       row.lo = -0.05;
       row.hi = 0.1;
@@ -169,13 +169,13 @@ void MakePlan(const Scene& scene, double omega, Plan* plan) {
 
 Settings Coloured(int sweeps) {
   Settings settings = PlainSweeps(sweeps);
-  settings.order = SweepOrder::kColoured;
+  settings.path = Path::kFast;
   return settings;
 }
 
 Settings ColouredSteps(int sweeps) {
   Settings settings = AlwaysSteps(sweeps);
-  settings.order = SweepOrder::kColoured;
+  settings.path = Path::kFast;
   return settings;
 }
 

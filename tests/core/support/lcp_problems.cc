@@ -96,14 +96,14 @@ Sparse StencilMatrix(int side) {
   return FromTriplets(side * side, triplets);
 }
 
-BoxedLcp Boxed(const Eigen::MatrixXd& m, const Eigen::VectorXd& q, const Eigen::VectorXd& lo,
-               const Eigen::VectorXd& hi) {
-  BoxedLcp problem{.M = m.sparseView(), .q = q, .lo = lo, .hi = hi};
+lcp::BoxedLcp Boxed(const Eigen::MatrixXd& m, const Eigen::VectorXd& q, const Eigen::VectorXd& lo,
+                    const Eigen::VectorXd& hi) {
+  lcp::BoxedLcp problem{.M = m.sparseView(), .q = q, .lo = lo, .hi = hi};
   problem.M.makeCompressed();
   return problem;
 }
 
-BoxedLcp Complementary(const Sparse& m, const Eigen::VectorXd& q) {
+lcp::BoxedLcp Complementary(const Sparse& m, const Eigen::VectorXd& q) {
   return {.M = m, .q = q, .lo = Zeros(q.size()), .hi = Infinite(q.size())};
 }
 
@@ -127,23 +127,24 @@ Planted Plant(const Sparse& m, const PlantOptions& options, Random* random) {
   return planted;
 }
 
-LcpSolution Solve(Solver* solver, const BoxedLcp& problem, const Eigen::VectorXd& start) {
+LcpSolution Solve(lcp::Solver* solver, const lcp::BoxedLcp& problem, const Eigen::VectorXd& start) {
   LcpSolution solution;
   solution.x = start.size() == 0 ? Zeros(problem.size()) : start;
   solution.report = solver->Solve(problem, &solution.x);
   return solution;
 }
 
-LcpSolution Solve(const Settings& settings, const BoxedLcp& problem, const Eigen::VectorXd& start) {
-  Solver solver(settings);
+LcpSolution Solve(const lcp::Settings& settings, const lcp::BoxedLcp& problem,
+                  const Eigen::VectorXd& start) {
+  lcp::Solver solver(settings);
   return Solve(&solver, problem, start);
 }
 
-Settings MatrixSweeps(int sweeps, SweepOrder order) {
-  return {.method = Method::kPgs, .order = order, .max_sweeps = sweeps, .tolerance = 0};
+lcp::Settings MatrixSweeps(int sweeps, lcp::SweepOrder order) {
+  return {.method = lcp::Method::kPgs, .order = order, .max_sweeps = sweeps, .tolerance = 0};
 }
 
-Settings Until(Method method, double tolerance) {
+lcp::Settings Until(lcp::Method method, double tolerance) {
   return {.method = method, .max_sweeps = 1'000'000, .tolerance = tolerance};
 }
 
@@ -156,7 +157,7 @@ testing::AssertionResult SameBits(const Eigen::VectorXd& a, const Eigen::VectorX
   return testing::AssertionSuccess();
 }
 
-testing::AssertionResult InsideBox(const BoxedLcp& problem, const Eigen::VectorXd& x) {
+testing::AssertionResult InsideBox(const lcp::BoxedLcp& problem, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (std::isfinite(x[i]) && x[i] >= problem.lo[i] && x[i] <= problem.hi[i]) continue;
     return testing::AssertionFailure()
@@ -165,17 +166,17 @@ testing::AssertionResult InsideBox(const BoxedLcp& problem, const Eigen::VectorX
   return testing::AssertionSuccess();
 }
 
-double EnergyOfX(const BoxedLcp& problem, const Eigen::VectorXd& y) {
+double EnergyOfX(const lcp::BoxedLcp& problem, const Eigen::VectorXd& y) {
   const Eigen::VectorXd diagonal = problem.M.diagonal();
   return std::sqrt((diagonal.array() * y.array().square()).sum());
 }
 
-double EnergyOfW(const BoxedLcp& problem, const Eigen::VectorXd& y) {
+double EnergyOfW(const lcp::BoxedLcp& problem, const Eigen::VectorXd& y) {
   const Eigen::VectorXd diagonal = problem.M.diagonal();
   return std::sqrt((y.array().square() / diagonal.array()).sum());
 }
 
-double RoundingOfW(const BoxedLcp& problem, const Eigen::VectorXd& x) {
+double RoundingOfW(const lcp::BoxedLcp& problem, const Eigen::VectorXd& x) {
   Eigen::VectorXd most(x.size());
   for (int i = 0; i < x.size(); ++i) {
     double sum = std::abs(problem.q[i]), terms = 4;
@@ -188,11 +189,11 @@ double RoundingOfW(const BoxedLcp& problem, const Eigen::VectorXd& x) {
   return EnergyOfW(problem, most);
 }
 
-double MostResidual(const BoxedLcp& problem, const Eigen::VectorXd& x) {
+double MostResidual(const lcp::BoxedLcp& problem, const Eigen::VectorXd& x) {
   return Measure(problem, x).energy + RoundingOfW(problem, x);
 }
 
-Spectrum ScaledSpectrum(const BoxedLcp& problem) {
+Spectrum ScaledSpectrum(const lcp::BoxedLcp& problem) {
   const Eigen::VectorXd diagonal = problem.M.diagonal();
   const Eigen::VectorXd root = diagonal.cwiseSqrt().cwiseInverse();
   const Eigen::MatrixXd scaled = root.asDiagonal() * Eigen::MatrixXd(problem.M) * root.asDiagonal();
@@ -200,7 +201,7 @@ Spectrum ScaledSpectrum(const BoxedLcp& problem) {
   return {solver.eigenvalues().minCoeff(), solver.eigenvalues().maxCoeff()};
 }
 
-double MostOfScaledSpectrum(const BoxedLcp& problem) {
+double MostOfScaledSpectrum(const lcp::BoxedLcp& problem) {
   const Eigen::VectorXd diagonal = problem.M.diagonal();
   double most = 0;
   for (int j = 0; j < problem.M.cols(); ++j) {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "cairn/solver.h"
+#include "cairn/lcp/solver.h"
 #include "problems.h"
 
 namespace cairn::test {
@@ -23,14 +23,14 @@ Sparse RedundantMatrix(int n, double compliance, Random* random);
 /// The 5-point Laplacian of a square grid: 4 and -1.
 Sparse StencilMatrix(int side);
 
-BoxedLcp Boxed(const Eigen::MatrixXd& m, const Eigen::VectorXd& q, const Eigen::VectorXd& lo,
-               const Eigen::VectorXd& hi);
+lcp::BoxedLcp Boxed(const Eigen::MatrixXd& m, const Eigen::VectorXd& q, const Eigen::VectorXd& lo,
+                    const Eigen::VectorXd& hi);
 /// 0 <= x.
-BoxedLcp Complementary(const Sparse& m, const Eigen::VectorXd& q);
+lcp::BoxedLcp Complementary(const Sparse& m, const Eigen::VectorXd& q);
 
 /// A problem, and the x and w that it was made from: q = w - M x, rounded.
 struct Planted {
-  BoxedLcp problem;
+  lcp::BoxedLcp problem;
   Eigen::VectorXd x, w;
 };
 
@@ -45,42 +45,43 @@ struct PlantOptions {
 Planted Plant(const Sparse& m, const PlantOptions& options, Random* random);
 
 struct LcpSolution {
-  Report report;
+  lcp::Report report;
   Eigen::VectorXd x;
 };
 /// From @p start, or from zeros if that is empty.
-LcpSolution Solve(Solver* solver, const BoxedLcp& problem, const Eigen::VectorXd& start = {});
+LcpSolution Solve(lcp::Solver* solver, const lcp::BoxedLcp& problem,
+                  const Eigen::VectorXd& start = {});
 /// By a new solver.
-LcpSolution Solve(const Settings& settings, const BoxedLcp& problem,
+LcpSolution Solve(const lcp::Settings& settings, const lcp::BoxedLcp& problem,
                   const Eigen::VectorXd& start = {});
 
 /// So many sweeps in that order and nothing else.
-Settings MatrixSweeps(int sweeps, SweepOrder order = SweepOrder::kForward);
+lcp::Settings MatrixSweeps(int sweeps, lcp::SweepOrder order = lcp::SweepOrder::kForward);
 /// Iterates until the tolerance is reached.
-Settings Until(Method method, double tolerance);
+lcp::Settings Until(lcp::Method method, double tolerance);
 
 /// Also tells 0 from -0, and not one NaN from the same one.
 testing::AssertionResult SameBits(const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 /// Finite, and not a rounding outside.
-testing::AssertionResult InsideBox(const BoxedLcp& problem, const Eigen::VectorXd& x);
+testing::AssertionResult InsideBox(const lcp::BoxedLcp& problem, const Eigen::VectorXd& x);
 
 /// sqrt(sum d_i y_i^2) and sqrt(sum y_i^2 / d_i), d = diag(M): the norms of changes of x and of w.
-double EnergyOfX(const BoxedLcp& problem, const Eigen::VectorXd& y);
-double EnergyOfW(const BoxedLcp& problem, const Eigen::VectorXd& y);
+double EnergyOfX(const lcp::BoxedLcp& problem, const Eigen::VectorXd& y);
+double EnergyOfW(const lcp::BoxedLcp& problem, const Eigen::VectorXd& y);
 
 /// EnergyOfW() of what rounding can change in w = M x + q: each sum of k terms by k eps of the sum
 /// of their absolute values.
-double RoundingOfW(const BoxedLcp& problem, const Eigen::VectorXd& x);
+double RoundingOfW(const lcp::BoxedLcp& problem, const Eigen::VectorXd& x);
 /// LcpResidual::energy and what rounding may hide of it.
-double MostResidual(const BoxedLcp& problem, const Eigen::VectorXd& x);
+double MostResidual(const lcp::BoxedLcp& problem, const Eigen::VectorXd& x);
 
 /// Smallest and largest eigenvalue of D^-1/2 M D^-1/2, in dense arithmetic.
 struct Spectrum {
   double least, most;
 };
-Spectrum ScaledSpectrum(const BoxedLcp& problem);
+Spectrum ScaledSpectrum(const lcp::BoxedLcp& problem);
 /// A bound of the largest one that is cheap: the largest row sum of its absolute values.
-double MostOfScaledSpectrum(const BoxedLcp& problem);
+double MostOfScaledSpectrum(const lcp::BoxedLcp& problem);
 
 /// Most that two points can be apart whose natural maps r = x - clamp(x - w / d) are e and f long,
 /// |r|_D = LcpResidual::energy; @p residuals is e + f. Both y = x - r are projections, so with dx,

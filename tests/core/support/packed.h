@@ -23,7 +23,7 @@ struct Packed {
     state = Packer::Start(island, islands[0], std::vector<double>(scene.rows.size(), 0.0));
     const int rows = static_cast<int>(scene.rows.size());
     for (int k = 0; k < sweeps; ++k) {
-      SweepRows(island, {0, rows, k}, LiftedFriction::kRelease, &state);
+      SweepRows(island, {0, rows, k}, detail::LiftedFriction::kRelease, &state);
     }
   }
 };

@@ -56,19 +56,19 @@ double Distance(const std::vector<Velocity>& a, const std::vector<Velocity>& b) 
 
 Settings PlainSweeps(int sweeps) {
   return {.method = Method::kPgs,
-          .order = SweepOrder::kForward,
+          .path = Path::kReference,
           .k_sm = 0,
           .max_sweeps = sweeps,
           .tolerance = 0,
-          .min_sweeps = 0};
+          .tuning = {.min_sweeps = 0}};
 }
 
 Settings AlwaysSteps(int sweeps) {
-  return {.order = SweepOrder::kForward,
+  return {.path = Path::kReference,
           .max_sweeps = sweeps,
           .tolerance = 0,
-          .min_sweeps = 0,
-          .step_policy = StepPolicy::kAlways};
+          .step_policy = StepPolicy::kAlways,
+          .tuning = {.min_sweeps = 0}};
 }
 
 double Random::Uniform(double lo, double hi) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 
 namespace cairn::test {
 

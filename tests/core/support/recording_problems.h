@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cairn/recording.h"
+#include "cairn/detail/recording.h"
 
 namespace cairn::test {
 

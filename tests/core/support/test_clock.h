@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Clocks for Settings::clock: what they say does not depend on the machine.
+// Clocks for Tuning::clock: what they say does not depend on the machine.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <utility>
 
-#include "cairn/budget.h"
+#include "cairn/tuning.h"
 #include "tests/core/support/problems.h"
 
 namespace cairn::test {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include <BulletDynamics/ConstraintSolver/btSequentialImpulseConstraintSolver.h>
 
@@ -12,7 +13,7 @@
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
-#include "cairn/recorder.h"
+#include "cairn/detail/recorder.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 
@@ -29,34 +30,22 @@ struct SubstepTimes {
 };
 
 /// Drop-in for btSequentialImpulseConstraintSolver: pass it to a btDiscreteDynamicsWorld, which
-/// does not own it.
-///
-/// Cairn builds the rows, solves and writes back; with Mode::kReference Bullet sets up the rows and
-/// writes back the results. All islands of a substep are solved as one problem, with one budget.
+/// does not own it. All islands of a substep are solved as one problem, with one budget.
 ///
 /// Without a budget (the default) btContactSolverInfo::m_numIterations says how hard to try. Each
 /// island makes that many accelerated sweeps, and a subspace step among them where it does more
 /// than sweeps in its place would and costs no more than all else about the island
 /// (StepPolicy::kWeighed, in place of the default kMeasured). Islands without a step go on for up
 /// to twice as many sweeps, as long as all of it is predicted to stay below two thirds of what
-/// Bullet's iterations take. An island is done when no row is further than 1e-4 m/s or rad/s from
-/// its law. All of that is counted, never timed. Settings::max_sweeps and Settings::tolerance are
-/// not used, m_leastSquaresResidualThreshold is, and per-joint iteration overrides are honoured.
-/// With Settings::k_sm = 0 or Method::kPgs and Mode::kReference this is
-/// Bullet's own iteration, down to friction that keeps its impulse when its contact lifts off
-/// (LiftedFriction::kHold).
+/// Bullet's iterations take. All of that is counted, never timed. A Budget::Time is for the whole
+/// substep, set-up and write-back included. Options::effort says whose numbers are read.
 ///
-/// With a budget, m_numIterations and overrides are not used: the solver goes on until
-/// Settings::tolerance, Settings::max_sweeps or the budget. A Budget::Time is for the whole
-/// substep, set-up and write-back included.
+/// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration, and all while a
+/// setting is out of its range. report() says so, and complaint() and the debug drawer in words.
 ///
-/// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration; report() says
-/// so. SOLVER_RANDMIZE_ORDER is ignored: rows are always swept in the same order.
-///
-/// In Mode::kFast, btManifoldPoint::m_prevRHS of contacts is used, to know the directions of
-/// lateral impulses from one substep to the next, and joints start from the substep before only if
-/// its groups came between prepareSolve() and allSolved(), or were one.
-///
+/// SOLVER_RANDMIZE_ORDER is ignored. In Mode::kFast btManifoldPoint::m_prevRHS of contacts is used,
+/// to know the directions of lateral impulses from one substep to the next, and joints start from
+/// the substep before only if its groups came between prepareSolve() and allSolved(), or were one.
 /// Not thread safe, like its base: one solver per world.
 class ConstraintSolver : public btSequentialImpulseConstraintSolver {
  public:
@@ -64,15 +53,16 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   ~ConstraintSolver() override;
 
   Settings& settings();
-  /// May be changed between substeps.
-  Options& options();
+  Options& options();  ///< May be changed between substeps.
   /// Of the last substep; of the last group where the caller does not bracket groups with
   /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
   const Report& report() const;
   SubstepTimes times() const;
-  /// Whether that was solved as by Mode::kReference though Mode::kFast was asked for: it has joints
-  /// of a type that Bullet does not ship, or Solver::Solve() refused it or broke down.
+  /// Whether Bullet did what Cairn was asked to do: a setting is out of its range, or a joint of a
+  /// type that Bullet does not ship, or Solver::Solve() refused it or broke down.
   bool fell_back() const;
+  /// What report() says is wrong, for people: "threads is 0, must be 1 to 1024". Empty if nothing.
+  std::string complaint() const;
   /// The problem that report() is about, and the impulses that solve it, one per row: joints first,
   /// in the order in which Bullet hands them over, then contacts, those in manifolds last. Valid
   /// until the next substep, impulses until they are asked for again; empty before the first.
@@ -92,8 +82,7 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
                       const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
                       btDispatcher* dispatcher) override;
   void allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override;
-  /// Forgets everything learnt in earlier substeps.
-  void reset() override;
+  void reset() override;  ///< Forgets everything learnt in earlier substeps.
 
  protected:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int num_bodies,
@@ -110,9 +99,10 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// False if the group was not solved.
   bool SolveFast(const Group& group, const btContactSolverInfo& info);
   void Analyse(const Group& group, int first_companion);
+  void Warn(btIDebugDraw* debug_drawer);
 
-  std::unique_ptr<Impl> impl_;  // no member may ask for more than 16 bytes of alignment: the base
-                                // class brings an operator new that does not give more
+  // no member may need more than 16 bytes of alignment: the operator new of the base gives no more
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

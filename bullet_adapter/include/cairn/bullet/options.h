@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
+#include "cairn/detail/cpp20.h"
 
 #include "cairn/bullet/precision.h"
 
@@ -11,8 +12,20 @@ enum class Mode {
   /// Cairn. Friction and joints start from the impulses of the substep before. A group that this
   /// cannot take is left to kReference; ConstraintSolver::fell_back() tells.
   kFast,
-  /// btSequentialImpulseConstraintSolver, the base class: slower, and the yardstick for kFast.
+  /// btSequentialImpulseConstraintSolver, the base class: slower, and what kFast is measured by.
+  /// Without steps friction of a contact that lifts off keeps its impulse, as Bullet's does,
+  /// whatever Tuning::lifted_friction says.
   kReference,
+};
+
+/// Who says when an island has had enough.
+enum class Effort {
+  kAuto,  ///< kIterations without a budget, kSettings with one.
+  /// btContactSolverInfo: m_numIterations, m_leastSquaresResidualThreshold, and what joints
+  /// override. Settings::max_sweeps and Settings::tolerance are not read. A budget is kept.
+  kIterations,
+  /// Settings::max_sweeps, Settings::tolerance and the budget. None of the above is read.
+  kSettings,
 };
 
 /// How joints and contacts go to the solver in Mode::kFast.
@@ -26,6 +39,7 @@ enum class ContactForm {
 /// How the adapter works; how hard the solver tries is in cairn::Settings.
 struct Options {
   Mode mode = Mode::kFast;
+  Effort effort = Effort::kAuto;
   ContactForm contacts = ContactForm::kManifolds;
   /// Whether friction starts from the lateral impulses in the contact points; Mode::kFast, and only
   /// with SOLVER_USE_WARMSTARTING in the solver mode of the world, scaled by m_warmstartingFactor.

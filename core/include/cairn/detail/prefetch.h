@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "cairn/detail/cpp20.h"
+
+#include <cstddef>
+
+namespace cairn {
+
+/// Asks for the cache lines of @p size bytes [1, ...) from @p begin on, before they are read. Any
+/// address will do.
+/// __builtin_prefetch() alone is not enough: GCC (12) takes a function that does nothing else for
+/// one without effects, and leaves out its calls.
+inline void Prefetch(const void* begin, std::size_t size = 1) {
+  constexpr std::size_t kLine = 64;
+  const char* const first = static_cast<const char*>(begin);
+  asm volatile("");
+  for (std::size_t at = 0; at < size; at += kLine) __builtin_prefetch(first + at);
+  // what does not begin a line may end in one more
+  if (size > 1) __builtin_prefetch(first + size - 1);
+}
+
+}  // namespace cairn

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "cairn/detail/cpp20.h"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+#include "cairn/report.h"
+
+namespace cairn {
+
+/// Geometric stiffness: keeps heavy loads on light jointed bodies stable at long time steps.
+///
+/// A link under tension T that its joint holds at a distance r from its centre of mass turns like a
+/// spring of stiffness T r. Velocities that are integrated with steps of length h blow up where
+/// h^2 T r / I passes 4, however well the joints are solved; better solved joints only get there
+/// sooner. Here the inertia I about such an axis is raised as far as it takes, and bodies below the
+/// threshold stay as they are, to the bit.
+///
+///     stiffness.Apply(h, bodies);                     // before a solve
+///     solver.Solve(problem, impulses, velocities);    // with those bodies
+///     stiffness.Learn(h, problem, impulses, report);  // after it
+///
+/// After Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody
+/// dynamics", 2017, and Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015. Other
+/// than there the threshold is twice as careful, what was needed fades over some steps instead of
+/// ending at once, and only tension counts, not compression.
+class GeometricStiffness {
+ public:
+  /// A body whose inertia was raised.
+  struct Raised {
+    int body;                  ///< Its place.
+    Eigen::Matrix3d damping;   ///< Its spin changes by -damping * spin over this step.
+    Eigen::Matrix3d response;  ///< What torques change its spin by, relative to before.
+  };
+
+  /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
+  /// Body::inv_inertia. Velocities are left to the caller, see Raised; valid until the next call.
+  std::span<const Raised> RaiseInertia(double time_step, std::span<Body> bodies);
+  /// The same, and damps Body::velocity.
+  void Apply(double time_step, std::span<Body> bodies);
+  /// Remembers what joints of a solved problem pull with: those of three rows without bounds along
+  /// directions at right angles to each other. What sweeps alone leave on an island is not yet its
+  /// tension, so there it is averaged over some steps. Islands that touch nothing but themselves
+  /// are left alone: raised inertia would take from their angular momentum. Does nothing if the
+  /// report is not ok().
+  void Learn(double time_step, const ContactProblem& problem, const Impulses& impulses,
+             const Report& report);
+  /// Forgets all tension.
+  void Reset() { memories_.clear(); }
+
+ private:
+  /// Of a body, by its id or place.
+  struct Memory {
+    std::uint64_t key = 0;
+    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< K [N m], world axes
+    Eigen::Vector3d held = Eigen::Vector3d::Zero();       ///< about principal axes [N m]
+    double held_ratio = 0;                                ///< the largest of these over moments
+    double inv_mass = 0;                                  ///< who it is
+    double inv_inertia = 0;  ///< sum of its inverse moments, not lowered
+    bool seen = false;
+  };
+
+  void FindAnchored(const ContactProblem& problem, const Report& report);
+  void Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse, double time_step);
+  void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
+  bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
+  void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
+  void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
+  void Remember(double time_step, std::span<const Body> bodies);
+
+  Memory* Find(std::uint64_t key);
+
+  std::vector<Memory> memories_;  ///< by key, ascending
+  size_t next_ = 0;               ///< where the next key is looked for first
+  std::vector<Memory> fresh_;     ///< those that are new
+  std::vector<Raised> raised_;
+  std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
+  std::vector<char> anchored_;         ///< by island: something of it touches what does not move
+  std::span<const int> island_of_;     ///< of the report that is learnt from
+  std::vector<double> pull_;           ///< by body: whether joints may pull too hard
+  std::vector<int> pulled_;            ///< bodies with an entry in sums_
+  std::vector<int> place_;             ///< by body: in pulled_, -1 for none
+  std::vector<Eigen::Matrix3d> sums_;  ///< K of pulled_
+};
+
+}  // namespace cairn

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: MIT
+"""The public headers stay short enough to be read: what a game meets, all that a game or an engine
+can install, and the library for matrices. What is in a folder detail/ is no promise, and not
+counted."""
+import os
+
+import tree
+
+CORE, LCP, ADAPTER = "core/include/cairn/", "core/lcp/include/cairn/", "bullet_adapter/include/cairn/"
+GAME = [CORE + name + ".h" for name in ("budget", "contact_problem", "executor", "joint", "manifold",
+                                        "report", "settings", "solver")]
+# What -> its files, and how many lines they may have together, fewer than that.
+LIMITS = {
+    "what a game meets": (GAME, 500),
+    "core and adapter": ((CORE, ADAPTER), 900),
+    "matrices": ((LCP,), 300),
+}
+
+
+def public_headers():
+    return [path for path in tree.walk((CORE, LCP, ADAPTER), (".h",)) if "/detail/" not in path]
+
+
+def main():
+    headers = public_headers()
+    errors = [f"{path}: no such header" for path in GAME if path not in headers]
+    for what, (places, limit) in LIMITS.items():
+        lines = {path: tree.read(path).count("\n") for path in headers if path.startswith(tuple(places))}
+        total = sum(lines.values())
+        print(f"{what}: {total} lines of less than {limit}")
+        if total >= limit:
+            longest = sorted(lines, key=lines.get, reverse=True)[:5]
+            named = ", ".join(f"{os.path.basename(path)} {lines[path]}" for path in longest)
+            errors.append(f"{what}: {total} lines, must be less than {limit}; the longest: {named}")
+    tree.finish(errors, len(headers))
+
+
+if __name__ == "__main__":
+    main()
