@@ -93,6 +93,12 @@ struct Sums<T, 0> {
   HWY_INLINE void Store(LineOf<T>*, int) const {}
 };
 
+/// function(lane) for as many lanes at a time as fit a register, as far as the block is filled.
+template <class T, class Function>
+HWY_INLINE void ForLanes(const PairBlock& block, const Function& function) {
+  for (int lane = 0; lane < block.lanes; lane += Step<T>()) function(lane);
+}
+
 /// function(i, lines) for every row.
 template <PairForm form, class Function>
 HWY_INLINE void ForRows(const PairBlock& block, const Line* lines, const Function& function) {
@@ -107,7 +113,8 @@ template <class T, PairForm form>
 HWY_NOINLINE void MultiplyForm(const PairBlock& block, const Line* lines, const LineOf<T>* v,
                                LineOf<T>* rows) {
   const LaneTag<T> d;
-  for (int lane = 0; lane < kLanes; lane += Step<T>()) {
+  for (int i = 0; i < block.row_count; ++i) rows[i] = {};  // lanes that are not filled, too
+  ForLanes<T>(block, [&](int lane) HWY_ATTR {
     const RowOfLanes<T, form> of_lanes(lines, lane);
     ForRows<form>(block, lines, [&](int i, const Line* row) HWY_ATTR {
       LaneVec<T> g[BodyLines(form)];
@@ -118,14 +125,14 @@ HWY_NOINLINE void MultiplyForm(const PairBlock& block, const Line* lines, const 
       }
       hn::Store(sum, d, rows[i].lane + lane);
     });
-  }
+  });
 }
 
 template <class T, PairForm form>
 HWY_NOINLINE void MultiplyTransposedForm(const PairBlock& block, const Line* lines,
                                          const LineOf<T>* rows, LineOf<T>* v) {
   const LaneTag<T> d;
-  for (int lane = 0; lane < kLanes; lane += Step<T>()) {
+  ForLanes<T>(block, [&](int lane) HWY_ATTR {
     const RowOfLanes<T, form> of_lanes(lines, lane);
     for (int k = 0; k < BodyLines(form); ++k) hn::Store(hn::Zero(d), d, v[k].lane + lane);
     Sums<T, BodyLines(form)> sums;
@@ -138,7 +145,7 @@ HWY_NOINLINE void MultiplyTransposedForm(const PairBlock& block, const Line* lin
       sums.AddProducts(full, lane, hn::Load(d, rows[i].lane + lane));
     });
     sums.Store(v, lane);
-  }
+  });
 }
 
 /// Some rows, in full and with their weights.
@@ -176,15 +183,15 @@ HWY_INLINE void AddTriangle(const SomeRows<T, form>& rows, int first, int lane, 
 }
 
 template <class T, PairForm form>
-HWY_INLINE void AddRows(const SomeRows<T, form>& rows, LineOf<T>* gram) {
-  for (int lane = 0; lane < kLanes; lane += Step<T>()) {
+HWY_INLINE void AddRows(const PairBlock& block, const SomeRows<T, form>& rows, LineOf<T>* gram) {
+  ForLanes<T>(block, [&](int lane) HWY_ATTR {
     AddTriangle(rows, 0, lane, gram);
     if constexpr (form != PairForm::kSingle) {
       LineOf<T>* const square = gram + kTriangleLines;
       for (int c = 0; c < 6; ++c) AddColumn<6>(rows, 0, 6 + c, lane, square + 6 * c);
       AddTriangle(rows, 6, lane, square + kSquareLines);
     }
-  }
+  });
 }
 
 template <class T, PairForm form>
@@ -192,10 +199,12 @@ HWY_NOINLINE void WeightedGramForm(const PairBlock& block, const Line* lines,
                                    const LineOf<T>* weights, LineOf<T>* gram) {
   constexpr int kUsed = form == PairForm::kSingle ? kTriangleLines : kGramLines;
   const LaneTag<T> d;
-  for (int k = 0; k < kUsed; ++k) gram[k] = {};
+  ForLanes<T>(block, [&](int lane) HWY_ATTR {
+    for (int k = 0; k < kUsed; ++k) hn::Store(hn::Zero(d), d, gram[k].lane + lane);
+  });
   SomeRows<T, form> some;
   ForRows<form>(block, lines, [&](int i, const Line* row) HWY_ATTR {
-    for (int lane = 0; lane < kLanes; lane += Step<T>()) {
+    ForLanes<T>(block, [&](int lane) HWY_ATTR {
       LaneVec<T> g[BodyLines(form)];
       RowOfLanes<T, form>(lines, lane).Expand(row, lane, g);
       const auto weight = hn::Load(d, weights[i].lane + lane);
@@ -203,12 +212,12 @@ HWY_NOINLINE void WeightedGramForm(const PairBlock& block, const Line* lines,
         hn::Store(g[k], d, some.g[some.count][k].lane + lane);
         hn::Store(hn::Mul(weight, g[k]), d, some.weighted[some.count][k].lane + lane);
       }
-    }
+    });
     if (++some.count < SomeRows<T, form>::kMost) return;
-    AddRows(some, gram);
+    AddRows(block, some, gram);
     some.count = 0;
   });
-  AddRows(some, gram);
+  AddRows(block, some, gram);
 }
 
 template <class T>

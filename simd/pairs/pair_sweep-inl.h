@@ -55,8 +55,8 @@ struct PairState<PairForm::kSingle> {
   Three<Wide> linear, angular;
 
   HWY_INLINE void Gather(const PairWork& work, const PairBlock& block, const Line*) {
-    linear = GatherAs<Wide>(work.bodies, block.a, 0);
-    angular = GatherAs<Wide>(work.bodies, block.a, 1);
+    linear = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
+    angular = GatherAs<Wide>(work.bodies, block.a, 1, block.lanes);
   }
   HWY_INLINE void Scatter(const PairWork& work, const PairBlock& block) const {
     ScatterAs(linear, work.bodies, block.a, 0, block.lanes);
@@ -77,10 +77,10 @@ struct PairState<PairForm::kJoint> {
   Three<Wide> linear_a, angular_a, linear_b, angular_b;
 
   HWY_INLINE void Gather(const PairWork& work, const PairBlock& block, const Line*) {
-    linear_a = GatherAs<Wide>(work.bodies, block.a, 0);
-    angular_a = GatherAs<Wide>(work.bodies, block.a, 1);
-    linear_b = GatherAs<Wide>(work.bodies, block.b, 0);
-    angular_b = GatherAs<Wide>(work.bodies, block.b, 1);
+    linear_a = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
+    angular_a = GatherAs<Wide>(work.bodies, block.a, 1, block.lanes);
+    linear_b = GatherAs<Wide>(work.bodies, block.b, 0, block.lanes);
+    angular_b = GatherAs<Wide>(work.bodies, block.b, 1, block.lanes);
   }
   HWY_INLINE void Scatter(const PairWork& work, const PairBlock& block) const {
     ScatterAs(linear_a, work.bodies, block.a, 0, block.lanes);
@@ -111,8 +111,8 @@ struct PairState<PairForm::kContact> {
 
   HWY_INLINE static Three<Wide> Relative(const PairWork& work, const PairBlock& block,
                                          const Wide& s_a, const Wide& s_b) {
-    const Three<Wide> a = GatherAs<Wide>(work.bodies, block.a, 0);
-    const Three<Wide> b = GatherAs<Wide>(work.bodies, block.b, 0);
+    const Three<Wide> a = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
+    const Three<Wide> b = GatherAs<Wide>(work.bodies, block.b, 0, block.lanes);
     return {Sub(Mul(s_a, a.x), Mul(s_b, b.x)), Sub(Mul(s_a, a.y), Mul(s_b, b.y)),
             Sub(Mul(s_a, a.z), Mul(s_b, b.z))};
   }
@@ -120,8 +120,8 @@ struct PairState<PairForm::kContact> {
     const Wide s_a = LoadLine(pair[0]), s_b = LoadLine(pair[1]);
     k = Add(Mul(s_a, s_a), Mul(s_b, s_b));
     relative = Relative(work, block, s_a, s_b);
-    angular_a = GatherAs<Wide>(work.bodies, block.a, 1);
-    angular_b = GatherAs<Wide>(work.bodies, block.b, 1);
+    angular_a = GatherAs<Wide>(work.bodies, block.a, 1, block.lanes);
+    angular_b = GatherAs<Wide>(work.bodies, block.b, 1, block.lanes);
   }
   HWY_INLINE void Scatter(const PairWork& work, const PairBlock& block) const {
     ScatterAs(angular_a, work.bodies, block.a, 1, block.lanes);
@@ -131,8 +131,8 @@ struct PairState<PairForm::kContact> {
     const Line* const pair = work.data + block.data;
     const Wide s_a = LoadLine(pair[0]), s_b = LoadLine(pair[1]);
     const Wide share_a = Div(s_a, k), share_b = Div(s_b, k);
-    Three<Wide> a = GatherAs<Wide>(work.bodies, block.a, 0);
-    Three<Wide> b = GatherAs<Wide>(work.bodies, block.b, 0);
+    Three<Wide> a = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
+    Three<Wide> b = GatherAs<Wide>(work.bodies, block.b, 0, block.lanes);
     Share(s_a, s_b, share_a, share_b, relative.x, &a.x, &b.x);
     Share(s_a, s_b, share_a, share_b, relative.y, &a.y, &b.y);
     Share(s_a, s_b, share_a, share_b, relative.z, &a.z, &b.z);

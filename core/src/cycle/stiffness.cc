@@ -75,7 +75,7 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
   if (memories_.empty()) return raised_;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     Body& body = bodies[i];
-    Memory* const found = Find(IslandMemories::KeyOf(body, i));
+    Memory* const found = Find(body, i);
     if (found == nullptr || found->inv_mass != body.inv_mass) continue;
     Memory& memory = *found;
     // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
@@ -114,20 +114,23 @@ void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
   }
 }
 
-GeometricStiffness::Memory* GeometricStiffness::Find(std::uint64_t key) {
-  // bodies mostly come in the order of their keys
-  const auto is_next = [&] {
-    return (next_ == memories_.size() || memories_[next_].key >= key) &&
-           (next_ == 0 || memories_[next_ - 1].key < key);
-  };
-  if (next_ > memories_.size() || !is_next()) {
+GeometricStiffness::Memory* GeometricStiffness::Find(const Body& body, int place) {
+  const std::uint64_t key = IslandMemories::KeyOf(body, place);
+  const auto at = static_cast<size_t>(place);
+  if (guess_.size() <= at) guess_.resize(at + 1, 0);
+  // bodies mostly keep their places, and memories theirs
+  size_t& guess = guess_[at];
+  const bool holds = guess <= memories_.size() &&
+                     (guess == memories_.size() || memories_[guess].key >= key) &&
+                     (guess == 0 || memories_[guess - 1].key < key);
+  if (!holds) {
     const auto found = std::lower_bound(
         memories_.begin(), memories_.end(), key,
         [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
-    next_ = static_cast<size_t>(found - memories_.begin());
+    guess = static_cast<size_t>(found - memories_.begin());
   }
-  if (next_ == memories_.size() || memories_[next_].key != key) return nullptr;
-  return &memories_[next_++];
+  const bool known = guess < memories_.size() && memories_[guess].key == key;
+  return known ? &memories_[guess] : nullptr;
 }
 
 void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
@@ -161,6 +164,7 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
                                     const Impulses& impulses) {
   const size_t bodies = problem.bodies.size();
   pull_.assign(bodies, 0);
+  known_.assign(bodies, nullptr);
   for (const Joint& joint : problem.joints) {
     // no triple of its rows without bounds has a longer arm or a larger impulse
     double arm_a = 0, arm_b = 0, impulse = 0;
@@ -179,11 +183,9 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
   for (size_t i = 0; i < bodies; ++i) {
     // Most() of a sum of |f| |r| is at most six times that
     const double ratio = time_step * 6 * pull_[i] * problem.bodies[i].inv_inertia.trace();
-    const bool known =
-        !memories_.empty() &&
-        Find(IslandMemories::KeyOf(problem.bodies[i], static_cast<int>(i))) != nullptr;
+    if (!memories_.empty()) known_[i] = Find(problem.bodies[i], static_cast<int>(i));
     // not a number: looked at
-    pull_[i] = known || !(ratio < kRemember) ? 1 : 0;
+    pull_[i] = known_[i] != nullptr || !(ratio < kRemember) ? 1 : 0;
   }
 }
 
@@ -212,8 +214,12 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
       }
       const float* const x = &impulses.joint_rows[joint.first_row + row];
       const Eigen::Vector3d lambda(x[0], x[1], x[2]);
-      Add(joint.body_a, ArmOf(linear_a, angular_a), linear_a * lambda, time_step);
-      Add(joint.body_b, ArmOf(linear_b, angular_b), linear_b * lambda, time_step);
+      if (IsPulled(joint.body_a)) {
+        Add(joint.body_a, ArmOf(linear_a, angular_a), linear_a * lambda, time_step);
+      }
+      if (IsPulled(joint.body_b)) {
+        Add(joint.body_b, ArmOf(linear_b, angular_b), linear_b * lambda, time_step);
+      }
       row += 3;
     }
   }
@@ -262,6 +268,7 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
   }
   island_of_ = report.island_of;
   FindAnchored(problem, report);
+  memories_.reserve(bodies);
   pulled_.reserve(bodies);
   sums_.reserve(bodies);
   pulled_.clear();
@@ -277,24 +284,23 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
   const double step2 = time_step * time_step;
   fresh_.clear();
   fresh_.reserve(pulled_.size());
-  memories_.reserve(bodies.size());
   for (Memory& memory : memories_) memory.seen = false;
-  for (int i = 0; i < static_cast<int>(bodies.size()) && !memories_.empty(); ++i) {
-    Memory* const found = Find(IslandMemories::KeyOf(bodies[i], i));
-    if (found == nullptr) continue;
-    Memory& memory = *found;
+  for (size_t i = 0; i < bodies.size() && !memories_.empty(); ++i) {
+    if (known_[i] == nullptr) continue;
+    Memory& memory = *known_[i];
     memory.seen = memory.inv_mass == bodies[i].inv_mass;
     memory.stiffness *= stepped_[i] != 0 ? 0 : kKeep;
   }
   for (size_t p = 0; p < pulled_.size(); ++p) {
     const Body& body = bodies[pulled_[p]];
     const double inv_inertia = body.inv_inertia.trace();
-    const std::uint64_t key = IslandMemories::KeyOf(body, pulled_[p]);
-    Memory* memory = Find(key);
+    Memory* memory = known_[pulled_[p]];
     const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
     if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
     // one that is known may have been lowered
-    const Memory fresh{.key = key, .inv_mass = body.inv_mass, .inv_inertia = inv_inertia};
+    const Memory fresh{.key = IslandMemories::KeyOf(body, pulled_[p]),
+                       .inv_mass = body.inv_mass,
+                       .inv_inertia = inv_inertia};
     if (memory == nullptr) {
       fresh_.push_back(fresh);
       memory = &fresh_.back();
@@ -308,10 +314,11 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     const double most = std::max(Most(memory.stiffness) * memory.inv_inertia, memory.held_ratio);
     return !memory.seen || step2 * most < kRemember / 2;
   });
-  if (fresh_.empty()) return;
+  const auto by_key = [](const Memory& a, const Memory& b) { return a.key < b.key; };
+  std::sort(fresh_.begin(), fresh_.end(), by_key);
+  const auto known = static_cast<std::ptrdiff_t>(memories_.size());
   memories_.insert(memories_.end(), fresh_.begin(), fresh_.end());
-  std::sort(memories_.begin(), memories_.end(),
-            [](const Memory& a, const Memory& b) { return a.key < b.key; });
+  std::inplace_merge(memories_.begin(), memories_.begin() + known, memories_.end(), by_key);
 }
 
 }  // namespace cairn

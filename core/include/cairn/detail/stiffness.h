@@ -72,11 +72,13 @@ class GeometricStiffness {
   void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void Remember(double time_step, std::span<const Body> bodies);
 
-  Memory* Find(std::uint64_t key);
+  /// Of a body and its place.
+  Memory* Find(const Body& body, int place);
 
-  std::vector<Memory> memories_;  ///< by key, ascending
-  size_t next_ = 0;               ///< where the next key is looked for first
-  std::vector<Memory> fresh_;     ///< those that are new
+  std::vector<Memory> memories_;    ///< by key, ascending
+  std::vector<std::size_t> guess_;  ///< by body: where its key was last, or would have been
+  std::vector<Memory*> known_;      ///< by body: what is remembered of it, while that is learnt
+  std::vector<Memory> fresh_;       ///< those that are new
   std::vector<Raised> raised_;
   std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
   std::vector<char> anchored_;         ///< by island: something of it touches what does not move
