@@ -128,7 +128,8 @@ NoStep BlockCycle::Weigh(int g, int i) {
   const double largest = std::max(seen.max, seen.max_angular);
   const bool near = largest <= kNear * settings_->tolerance;
   // what sweeps have left unsolved for long, a single step would throw
-  const bool thrown = !odds.stepped() && largest > kMostThrown;
+  const int bodies = frame_->plan().islands()[i].bodies;
+  const bool thrown = !odds.stepped_most(bodies) && largest > kMostThrown;
   if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
   const double rest = steps_.RestAlone(i, settings_->max_sweeps);
   const double scalar = steps_.ScalarAlone(i, settings_->max_sweeps);
@@ -209,7 +210,7 @@ void BlockCycle::Learn() {
     const IslandState& state = states_[i];
     if (frame_->plan().islands()[i].first_body < 0) continue;
     StepOdds& odds = steps_.odds(i);
-    odds.EndFrame(StepsTaken(i) > 0);
+    odds.EndFrame(StepsTaken(i) > 0 ? frame_->plan().islands()[i].bodies : 0);
     if (!watches_) continue;
     const int least = state.run_begin == 0 ? kLeastRun : kLeastRunAfterStep;
     const int sweeps = islands_[i].sweeps - state.run_begin;
@@ -227,6 +228,7 @@ void BlockCycle::TakeSteps() {
   if (stepped_islands_.empty()) return;
   ChooseNone();
   for (int i : stepped_islands_) Choose(i);
+  if (guards_) steps_.FindMasses();
   MeasureChosen(&before_);
   merits_before_.Find(frame_, chosen_);
   SetJudgingAside();
@@ -320,8 +322,10 @@ bool BlockCycle::IsBetterAlone(int i) {
 void BlockCycle::FindHarm() {
   merits_.Find(frame_, chosen_);
   for (int i : stepped_islands_) {
+    const double error = std::max(before_[i].max, before_[i].max_angular);
     states_[i].harmful =
-        guards_ && (merits_.of(i).is_worse_than_none() || IsTooMuch(steps_.result(i).joint_speed));
+        guards_ && (merits_.of(i).is_worse_than_none() || IsTooMuch(steps_.result(i).joint_speed) ||
+                    IsTooViolent(merits_before_.of(i), merits_.of(i), steps_.mass(i), error));
   }
 }
 

@@ -125,6 +125,15 @@ void BlockSteps::CountLines() {
   for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
 }
 
+void BlockSteps::FindMasses() {
+  const std::span<const int> island_of_body = frame_->plan().island_of_body();
+  masses_.assign(frame_->plan().islands().size(), 0);
+  for (size_t i = 0; i < problem_->bodies.size(); ++i) {
+    const double inv_mass = problem_->bodies[i].inv_mass;
+    if (island_of_body[i] >= 0 && inv_mass > 0) masses_[island_of_body[i]] += 1 / inv_mass;
+  }
+}
+
 IslandMemory* BlockSteps::MemoryOf(int island) {
   IslandMemory*& memory = memory_of_island_[island];
   if (memory == nullptr) {

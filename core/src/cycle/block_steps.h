@@ -63,6 +63,9 @@ class BlockSteps {
   bool given_up(int island) const { return given_up_[island] != 0; }
   /// What came of the last one; where it did not succeed, nothing changed.
   const StepResult& result(int island) const { return islands_[island].result; }
+  /// Finds what mass() says of every island.
+  void FindMasses();
+  double mass(int island) const { return masses_[island]; }  ///< of its bodies [kg]
   /// What was charged for it: its share of the group's, by rows.
   double work(int island) const { return work_[island]; }
   /// A guard undid something on the island.
@@ -122,6 +125,7 @@ class BlockSteps {
   std::vector<IslandMemory*> memory_of_island_;
   std::vector<IslandStep> islands_, islands_now_;
   std::vector<double> work_;    ///< by island
+  std::vector<double> masses_;  ///< likewise
   std::vector<char> given_up_;  ///< likewise
   std::unique_ptr<BlockStep<float>> float_step_;
   std::unique_ptr<BlockStep<double>> double_step_;

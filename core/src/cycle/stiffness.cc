@@ -314,11 +314,10 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     const double most = std::max(Most(memory.stiffness) * memory.inv_inertia, memory.held_ratio);
     return !memory.seen || step2 * most < kRemember / 2;
   });
-  const auto by_key = [](const Memory& a, const Memory& b) { return a.key < b.key; };
-  std::sort(fresh_.begin(), fresh_.end(), by_key);
-  const auto known = static_cast<std::ptrdiff_t>(memories_.size());
+  if (fresh_.empty()) return;
   memories_.insert(memories_.end(), fresh_.begin(), fresh_.end());
-  std::inplace_merge(memories_.begin(), memories_.begin() + known, memories_.end(), by_key);
+  std::sort(memories_.begin(), memories_.end(),
+            [](const Memory& a, const Memory& b) { return a.key < b.key; });
 }
 
 }  // namespace cairn

@@ -146,8 +146,11 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
   // judged after sweeps: before them, nearly every good step looks worse
   Sweeps(SweepsOfLeg(), meter);
   memory_->SawJoints(result);
-  const bool worse = MeasureMerit(island_, at_.state).is_worse_than_none();
-  const bool sound = !guards_ || !(worse || IsTooMuch(result.joint_speed));
+  const Merit merit = MeasureMerit(island_, at_.state);
+  const bool violent =
+      IsTooViolent(MeasureMerit(island_, before.state), merit, island_.mass, Largest(residual_));
+  const bool worse = merit.is_worse_than_none();
+  const bool sound = !guards_ || !(worse || violent || IsTooMuch(result.joint_speed));
   if (!sound) {
     report_.guards.step = true;
     memory_->Guarded();

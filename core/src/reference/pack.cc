@@ -61,7 +61,11 @@ PackedRow Packer::PackRow(const Row& row) const {
 PackedIsland Packer::Pack(const Island& island) const {
   PackedIsland packed;
   packed.bodies = static_cast<int>(island.bodies.size());
-  for (int i = 0; i < packed.bodies; ++i) local_[island.bodies[i]] = i + 1;
+  for (int i = 0; i < packed.bodies; ++i) {
+    local_[island.bodies[i]] = i + 1;
+    const double inv_mass = problem_.bodies[island.bodies[i]].inv_mass;
+    if (inv_mass > 0) packed.mass += 1 / inv_mass;
+  }
   for (int i = 0; i < static_cast<int>(island.rows.size()); ++i) local_row_[island.rows[i]] = i;
 
   packed.rows.reserve(island.rows.size());

@@ -32,7 +32,8 @@ struct PackedRow {
 /// The constant part of one island.
 struct PackedIsland {
   std::vector<PackedRow> rows;
-  int bodies = 0;  ///< movable ones
+  int bodies = 0;   ///< movable ones
+  double mass = 0;  ///< of them [kg]
 };
 
 /// What iterations write. Always consistent: u = G' x, up to the rounding of increments.

@@ -49,7 +49,15 @@ void Multiply(T factor, T* number) {
   *number = factor == 0 ? 0 : factor * *number;
 }
 
+/// See IsTooViolent().
+constexpr double kMostEnergy = 1000, kMostOfAll = 0.5;
+
 }  // namespace
+
+bool IsTooViolent(const Merit& before, const Merit& after, double mass, double error) {
+  const double gain = before.value() - after.value();
+  return gain > kMostEnergy * 0.5 * mass * error * error && gain > kMostOfAll * -after.value();
+}
 
 bool Merit::is_worse_than_none() const {
   return may_be_none && !(gain >= (0.5 - kRounding) * square);

@@ -48,6 +48,13 @@ struct StepTrial {
 /// 6 cm/s.
 inline bool IsTooMuch(double joint_speed) { return !(joint_speed <= 1e6); }
 
+/// Whether a step changed velocities beyond what errors call for: rows that were let go for long
+/// contradict each other by little over arms that are short, and what meets them at once throws
+/// bodies. It is by 1,000 times the energy of an island of that @p mass [kg] that moves at the
+/// largest @p error before the step, [m/s] or [rad/s]; the usual is 1. And the step did most of all
+/// that the impulses do: what is small beside them may have any ratio to an error that is smaller.
+bool IsTooViolent(const Merit& before, const Merit& after, double mass, double error);
+
 /// Whether impulses are guarded at all. Plain methods are what their names say, who asks for no
 /// sweeps wants the start, and friction that is held is no minimum of anything.
 bool IsGuarded(const Settings& settings);

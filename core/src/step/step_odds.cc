@@ -82,11 +82,11 @@ void StepOdds::Expect(double cut) {
   if (!later_.known) later_.cut = kLater * expected_;
 }
 
-void StepOdds::EndFrame(bool stepped) {
+void StepOdds::EndFrame(int stepped_bodies) {
   ++age_;
   ++trial_age_;
-  stepped_ = stepped;
-  if (stepped) return;
+  stepped_bodies_ = stepped_bodies;
+  if (stepped()) return;
   if (stale()) age_ = 0;
   first_.cut += kFade * (expected_ - first_.cut);
   later_.cut += kFade * (kLater * expected_ - later_.cut);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+
 namespace cairn {
 
 /// What sweeps and steps were seen to do to the residual in energy of an island, and so whether a
@@ -28,7 +30,12 @@ class StepOdds {
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }
   /// There was one in the last frame.
-  bool stepped() const { return stepped_; }
+  bool stepped() const { return stepped_bodies_ > 0; }
+  /// Likewise, of an island of not many fewer bodies: others may have been left to sweeps before
+  /// they joined it.
+  bool stepped_most(int bodies) const {
+    return 4 * static_cast<std::int64_t>(bodies) <= 5 * static_cast<std::int64_t>(stepped_bodies_);
+  }
   /// That is not known, or was not looked at for a while.
   bool wants_trial() const { return trial_age_ >= trial_pause_; }
   /// The last time that both were tried, sweeps came nowhere near: one step is worth its price.
@@ -36,7 +43,8 @@ class StepOdds {
   /// What the first step of a frame is thought to do before one was measured.
   void Expect(double cut);
   /// Where no step was taken, what is known of them fades into what was expected.
-  void EndFrame(bool stepped);
+  /// @param stepped_bodies  of the island, 0 where no step was taken
+  void EndFrame(int stepped_bodies);
   /// Sweeps were not measured for long: a frame without steps is due.
   bool stale() const;
 
@@ -61,7 +69,7 @@ class StepOdds {
 
   bool carries_ = false;
   bool pays_ = true;
-  bool stepped_ = false;
+  int stepped_bodies_ = 0;
   bool carried_much_ = false;
   int doubts_ = 0;                       ///< trials failed in a row
   int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again

@@ -227,6 +227,37 @@ TEST(Guards, UndoAStepThatLeavesImpulsesThatFloatsCannotHold) {
   }
 }
 
+/// A box on two pins so far apart [m] that move apart at 0.1 m/s.
+Scene TurnedByItsPins(double apart) {
+  Scene scene;
+  scene.bodies.push_back(test::Box(1, {1, 0.2, 2}));
+  scene.positions.push_back({0, 0, 0});
+  for (const double side : {-0.5, 0.5}) {
+    const size_t first = scene.rows.size();
+    test::AddPin(&scene, kWorld, 0, {0, 0, side * apart});
+    scene.rows[first].target = 0.1 * side;
+  }
+  return scene;
+}
+
+// Over an arm of 1 cm, 0.1 m/s are 10 rad/s, which sweeps would not come to in hundreds of frames.
+TEST(Guards, UndoAStepThatThrowsABody) {
+  for (const Path path : kPaths) {
+    Settings settings = test::AlwaysSteps(10);
+    settings.path = path;
+    const Solution thrown = test::Solve(settings, TurnedByItsPins(0.01));
+    ASSERT_TRUE(thrown.report.ok());
+    EXPECT_TRUE(thrown.report.islands[0].guards.step);
+    EXPECT_EQ(thrown.report.steps_restored, 1);
+    EXPECT_LT(thrown.v[0].angular.norm(), 1);
+
+    const Solution turned = test::Solve(settings, TurnedByItsPins(0.5));
+    EXPECT_FALSE(turned.report.islands[0].guards.step);
+    EXPECT_EQ(turned.report.steps_accepted, 1);
+    EXPECT_NEAR(turned.v[0].angular.norm(), 0.2, 0.01);
+  }
+}
+
 // Friction of 20 times a pile's, over-relaxed and cut as its normals shrink, from a random start:
 // there even sweeps end worse than they began, on a few in a hundred.
 TEST(Guards, ScaleAResultThatIsWorseThanNone) {

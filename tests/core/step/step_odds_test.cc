@@ -17,7 +17,7 @@ StepOdds Measured(double power, double cut) {
     odds.LearnSweeps(power);
     odds.LearnStep(0, std::exp(-cut));
     odds.LearnStep(1, 1);
-    odds.EndFrame(true);
+    odds.EndFrame(1);
   }
   return odds;
 }
@@ -54,25 +54,40 @@ TEST(StepOdds, ForgetWhatSceneThereWas) {
 TEST(StepOdds, FadeInFramesWithoutSteps) {
   StepOdds odds = Measured(1, -1), fresh;
   fresh.Expect(2);
-  for (int frame = 0; frame < 20; ++frame) odds.EndFrame(false);
+  for (int frame = 0; frame < 20; ++frame) odds.EndFrame(0);
   EXPECT_LT(odds.cut(0), 0);
-  for (int frame = 0; frame < 1000; ++frame) odds.EndFrame(false);
+  for (int frame = 0; frame < 1000; ++frame) odds.EndFrame(0);
   EXPECT_NEAR(odds.cut(0), fresh.cut(0), 0.01);
 }
 
 TEST(StepOdds, WantAFrameWithoutStepsNowAndThen) {
   StepOdds odds;
-  odds.EndFrame(true);
+  odds.EndFrame(1);
   EXPECT_TRUE(odds.stale()) << "nothing is known of sweeps";
   odds.LearnSweeps(0.5);
   int frames = 0;
-  for (; !odds.stale() && frames < 1000; ++frames) odds.EndFrame(true);
+  for (; !odds.stale() && frames < 1000; ++frames) odds.EndFrame(1);
   EXPECT_GE(frames, 50);
   EXPECT_LE(frames, 100);
-  odds.EndFrame(true);
+  odds.EndFrame(1);
   EXPECT_TRUE(odds.stale());
-  odds.EndFrame(false);
+  odds.EndFrame(0);
   EXPECT_FALSE(odds.stale());
+}
+
+// A rope that was left to sweeps meets a wall that takes steps: together they have not stepped.
+TEST(StepOdds, KnowWhetherMostBodiesWereStepped) {
+  StepOdds odds;
+  EXPECT_FALSE(odds.stepped());
+  EXPECT_FALSE(odds.stepped_most(1));
+  odds.EndFrame(11);
+  EXPECT_TRUE(odds.stepped());
+  EXPECT_TRUE(odds.stepped_most(11));
+  EXPECT_TRUE(odds.stepped_most(5));
+  EXPECT_TRUE(odds.stepped_most(13));
+  EXPECT_FALSE(odds.stepped_most(14));
+  odds.EndFrame(0);
+  EXPECT_FALSE(odds.stepped());
 }
 
 TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
@@ -84,7 +99,7 @@ TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
     odds.LearnGains(1, 1, false);
     EXPECT_FALSE(odds.pays());
     int frames = 0;
-    for (; !odds.wants_trial(); ++frames) odds.EndFrame(false);
+    for (; !odds.wants_trial(); ++frames) odds.EndFrame(0);
     EXPECT_GE(frames, last) << "ever later";
     EXPECT_LE(frames, 16);
     last = frames;
@@ -112,7 +127,7 @@ TEST(StepOdds, OutliveDoubtsWhereTheyCarriedMuch) {
   for (int doubt = 0; doubt < 2; ++doubt) {
     odds.LearnGains(1, 1, false);
     EXPECT_TRUE(odds.pays()) << doubt;
-    odds.EndFrame(true);
+    odds.EndFrame(1);
     EXPECT_TRUE(odds.wants_trial()) << "at once again";
   }
   odds.LearnGains(1, 1, false);
