@@ -33,6 +33,7 @@ MAY_INCLUDE = {
     "core/src/cycle": BELOW_STEP + ("core/src/step/", "core/src/cycle/"),
     # The double-precision path: the frame above never includes it.
     "core/src/reference": BELOW_STEP + ("core/src/step/", "core/src/reference/"),
+    "core/src/engine": ("core/include/", "core/src/problem/", "core/src/engine/"),
     "core/src/recording": ("core/include/", "core/src/problem/", "core/src/recording/"),
     "core/src": ("core/include/", "core/src/", "simd/"),
     "core/lcp/include": ("core/lcp/include/", "core/include/"),
