@@ -66,7 +66,8 @@ struct TouchPoint {
 /// keep E, so that the height after a bounce is e^2 times that before, at any time step.
 class Contacts {
  public:
-  explicit Contacts(const ContactOptions& options = {}) : options_(options) {}
+  Contacts() = default;
+  explicit Contacts(const ContactOptions& options) : options_(options) {}
 
   ContactOptions& options() { return options_; }
 

@@ -59,8 +59,9 @@ struct JointSide {
 ///   spring:  an implicit step of it, within +-h spring_most: as soft contacts in contacts.h.
 class Joints {
  public:
+  Joints() = default;
   /// @param erp  share of an error that is taken back in a step, in [0, 1]
-  explicit Joints(double erp = 0.2) : erp_(erp) {}
+  explicit Joints(double erp) : erp_(erp) {}
 
   /// Begins a frame. The bodies are looked at until the last Add().
   void Begin(const StepInput& step);
@@ -93,7 +94,7 @@ class Joints {
   JointRow& AddRow(const Way& way);
   int Close(std::uint64_t id);
 
-  double erp_;
+  double erp_ = 0.2;
   StepInput step_;
   std::vector<Joint> joints_;
   std::vector<JointRow> rows_;
