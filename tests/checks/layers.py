@@ -6,7 +6,7 @@ import re
 import tree
 
 # Where a quoted include is looked for, beside the folder of the file itself.
-INCLUDE_ROOTS = ("", "core/include", "core/src", "core/lcp/include", "core/lcp/src", "bullet_adapter/include", "bullet_adapter/src",
+INCLUDE_ROOTS = ("", "core/include", "core/src", "core/lcp/include", "core/lcp/src", "core/c/include", "bullet_adapter/include", "bullet_adapter/src",
                  "bench")
 
 # Rooms of the core, in the order of a frame.
@@ -36,6 +36,9 @@ MAY_INCLUDE = {
     "core/src/engine": ("core/include/", "core/src/problem/", "core/src/engine/"),
     "core/src/recording": ("core/include/", "core/src/problem/", "core/src/recording/"),
     "core/src": ("core/include/", "core/src/", "simd/"),
+    # C, and what stands behind it.
+    "core/c/include": ("core/c/include/",),
+    "core/c/src": ("core/c/", "core/include/"),
     "core/lcp/include": ("core/lcp/include/", "core/include/"),
     "core/lcp/src": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/problem/",
                      "core/src/runtime/", "simd/"),
@@ -67,7 +70,8 @@ MAY_INCLUDE = {
     "bench/accuracy": ABOVE_RUN + ("bench/run/", "bench/accuracy/"),
     "bench/micro": ("bench/support/", "bench/measure/", "bench/scenes/", "bench/run/", "bench/micro/",
                     "bullet_adapter/include/", "core/", "simd/"),
-    "examples": ("examples/", "bullet_adapter/include/", "core/include/", "core/lcp/include/"),
+    "examples": ("examples/", "bullet_adapter/include/", "core/include/", "core/c/include/",
+                 "core/lcp/include/"),
     "tests": ("",),
 }
 

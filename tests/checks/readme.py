@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Programs shown in README.md and docs/ are the ones that are compiled: each ```cpp block after a
+"""Programs shown in README.md and docs/ are the ones that are compiled: each ```cpp or ```c block after a
 comment <!-- FILE PART --> equals what FILE has between its lines // [PART] and // [/PART].
 Without PART it is the whole file below its licence line. A tutorial shows all parts of its program,
 outside of which there are only includes and the like, and is short."""
@@ -7,12 +7,12 @@ import re
 
 import tree
 
-BLOCK = re.compile(r"<!-- (\S+\.cc)(?: (\w+))? -->\n+```cpp\n(.*?)```", re.DOTALL)
+BLOCK = re.compile(r"<!-- (\S+\.cc?)(?: (\w+))? -->\n+```(?:cpp|c)\n(.*?)```", re.DOTALL)
 # Page -> the program that it shows all of, and how many lines that may have without its main().
 TUTORIALS = {"docs/engine.md": ("examples/engine.cc", 150)}
 PART = re.compile(r"// \[(\w+)\]\n(.*?)[ ]*// \[/\1\]\n", re.DOTALL)
 AROUND = re.compile(r"(//.*|#include .*|using .*|namespace \{|\}  // namespace|)")
-MUST_SHOW = ("README.md", "docs/engine.md", "docs/matrix.md")
+MUST_SHOW = ("README.md", "docs/c.md", "docs/engine.md", "docs/matrix.md")
 
 
 def shown_part(path, part):
