@@ -86,6 +86,7 @@ THIRD_PARTIES = {
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
+    "DART": (r"dart/.*\.hpp$", r"examples/dart/"),
     "Siconos": (r"siconos/", r"bench/lcp/siconos_"),
     "CHOLMOD": (r"suitesparse/", r"bench/micro/cholesky/cholmod_"),
     "Google Benchmark": (r"benchmark/", r"bench/micro/"),
