@@ -191,7 +191,7 @@ class JobSystem final : public cairn::Executor {
 int main() {
   JobSystem jobs;
   World world;
-  world.solver.settings().tolerance = 1e-4;  // [m/s]: rest is rest
+  world.solver.settings().tolerance = 2e-5;  // [m/s]: rest is rest
   world.solver.settings().threads = 2;
   world.solver.settings().executor = &jobs;
 

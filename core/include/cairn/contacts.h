@@ -50,7 +50,8 @@ struct TouchPoint {
 
 /// Makes manifolds of what collision detection found, and starts points that were there in the last
 /// frame from what they exerted then. In each frame: Begin(), Add() for each Touch, Solve() with
-/// manifolds(), points() and impulses().
+/// manifolds(), points() and impulses(). A frame with no more points than an earlier one allocates
+/// nothing.
 ///
 /// The bias b of a point of depth d with approach speed -v0 before the step:
 ///   gap (d < 0):            b = d / h, so that the step may close the gap and no more;
@@ -88,6 +89,7 @@ class Contacts {
   };
   struct Kept {
     Key key;
+    int place;  ///< in the last frame
     ContactImpulse impulse;
   };
 

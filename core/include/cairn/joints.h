@@ -49,7 +49,8 @@ struct JointSide {
 };
 
 /// Makes joints, and starts their rows from what they exerted in the last frame. In each frame:
-/// Begin(), Add() for each joint, Solve() with joints(), rows() and impulses().
+/// Begin(), Add() for each joint, Solve() with joints(), rows() and impulses(). A frame with no
+/// more joints than an earlier one allocates nothing.
 ///
 /// Rows of an axis, in this order, so that the same kind always has the same rows (C: position, h:
 /// time step; w = dC/dt):

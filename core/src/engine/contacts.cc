@@ -58,10 +58,12 @@ NormalLaw LawOf(const ContactOptions& options, double restitution, const Approac
 void Contacts::Begin(const StepInput& step) {
   kept_.clear();
   for (size_t i = 0; i < keys_.size(); ++i) {
-    if (keys_[i].id != 0) kept_.push_back({keys_[i], impulses_[i]});
+    if (keys_[i].id != 0) kept_.push_back({keys_[i], static_cast<int>(i), impulses_[i]});
   }
-  std::stable_sort(kept_.begin(), kept_.end(),
-                   [](const Kept& a, const Kept& b) { return a.key < b.key; });
+  // of two with one name the first counts; a stable sort would allocate
+  std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
+    return a.key != b.key ? a.key < b.key : a.place < b.place;
+  });
   step_ = step;
   manifolds_.clear();
   points_.clear();

@@ -60,8 +60,10 @@ void Joints::Begin(const StepInput& step) {
   for (size_t i = 0; i < joints_.size(); ++i) {
     if (ids_[i] != 0) kept_.push_back({ids_[i], joints_[i].first_row, joints_[i].rows});
   }
-  std::stable_sort(kept_.begin(), kept_.end(),
-                   [](const Kept& a, const Kept& b) { return a.id < b.id; });
+  // of two with one name the first counts; a stable sort would allocate
+  std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
+    return a.id != b.id ? a.id < b.id : a.first < b.first;
+  });
   kept_impulses_.swap(impulses_);
   step_ = step;
   joints_.clear();
