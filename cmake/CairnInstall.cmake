@@ -35,7 +35,10 @@ cairn_install_library(cairn Core)
 cairn_install_pkg_config(cairn)
 cairn_install_library(cairn_lcp Lcp)
 cairn_install_pkg_config(cairn-lcp)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/ ${PROJECT_SOURCE_DIR}/core/lcp/include/
+cairn_install_library(cairn_c C)
+cairn_install_pkg_config(cairn-c)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/ ${PROJECT_SOURCE_DIR}/core/c/include/
+                  ${PROJECT_SOURCE_DIR}/core/lcp/include/
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET cairn_bullet)
   cairn_install_library(cairn_bullet Bullet)

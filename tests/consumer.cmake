@@ -7,7 +7,7 @@ endif()
 function(cairn_consumer_test name way)
   add_test(NAME ${name}
     COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/consumer/run.py ${way}
-            --build ${PROJECT_BINARY_DIR} --cmake ${CMAKE_COMMAND} --cxx ${CMAKE_CXX_COMPILER}
+            --build ${PROJECT_BINARY_DIR} --cmake ${CMAKE_COMMAND} --cxx ${CMAKE_CXX_COMPILER} --cc ${CMAKE_C_COMPILER}
             --libdir ${CMAKE_INSTALL_LIBDIR})
   set_tests_properties(${name} PROPERTIES LABELS consumer ${ARGN})
 endfunction()
@@ -15,6 +15,9 @@ endfunction()
 cairn_consumer_test(install install FIXTURES_SETUP installed)
 cairn_consumer_test(install_consumer_find_package find_package FIXTURES_REQUIRED installed)
 cairn_consumer_test(install_consumer_pkg_config pkg_config FIXTURES_REQUIRED installed)
+if(NOT BUILD_SHARED_LIBS)
+  cairn_consumer_test(install_consumer_in_c_alone c_alone FIXTURES_REQUIRED installed)
+endif()
 cairn_consumer_test(install_consumer_add_subdirectory add_subdirectory)
 cairn_consumer_test(mixed_precisions_are_refused_by_cmake mixed_precisions FIXTURES_REQUIRED installed)
 cairn_consumer_test(missing_component_is_named missing_component FIXTURES_REQUIRED installed)

@@ -14,7 +14,7 @@ function(cairn_check_headers library)
   cairn_strict(${library}_headers)
 endfunction()
 
-foreach(library cairn cairn_lcp cairn_bullet cairn_bullet_float64)
+foreach(library cairn cairn_c cairn_lcp cairn_bullet cairn_bullet_float64)
   if(TARGET ${library})
     cairn_check_headers(${library})
   endif()

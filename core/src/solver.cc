@@ -40,6 +40,7 @@ BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, Wor
 /// Report::bad_row and its like, from one who looked.
 void CopyJudgement(const Report& checked, Report* report) {
   report->status = checked.status;
+  report->bad_setting = checked.bad_setting;
   report->bad_row = checked.bad_row;
   report->bad_body = checked.bad_body;
   report->bad_manifold = checked.bad_manifold;

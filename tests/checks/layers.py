@@ -6,7 +6,7 @@ import re
 import tree
 
 # Where a quoted include is looked for, beside the folder of the file itself.
-INCLUDE_ROOTS = ("", "core/include", "core/src", "core/lcp/include", "core/lcp/src", "bullet_adapter/include", "bullet_adapter/src",
+INCLUDE_ROOTS = ("", "core/include", "core/src", "core/lcp/include", "core/lcp/src", "core/c/include", "bullet_adapter/include", "bullet_adapter/src",
                  "bench")
 
 # Rooms of the core, in the order of a frame.
@@ -33,8 +33,12 @@ MAY_INCLUDE = {
     "core/src/cycle": BELOW_STEP + ("core/src/step/", "core/src/cycle/"),
     # The double-precision path: the frame above never includes it.
     "core/src/reference": BELOW_STEP + ("core/src/step/", "core/src/reference/"),
+    "core/src/engine": ("core/include/", "core/src/problem/", "core/src/engine/"),
     "core/src/recording": ("core/include/", "core/src/problem/", "core/src/recording/"),
     "core/src": ("core/include/", "core/src/", "simd/"),
+    # C, and what stands behind it.
+    "core/c/include": ("core/c/include/",),
+    "core/c/src": ("core/c/", "core/include/"),
     "core/lcp/include": ("core/lcp/include/", "core/include/"),
     "core/lcp/src": ("core/include/", "core/lcp/", "core/src/cholesky/", "core/src/problem/",
                      "core/src/runtime/", "simd/"),
@@ -66,7 +70,8 @@ MAY_INCLUDE = {
     "bench/accuracy": ABOVE_RUN + ("bench/run/", "bench/accuracy/"),
     "bench/micro": ("bench/support/", "bench/measure/", "bench/scenes/", "bench/run/", "bench/micro/",
                     "bullet_adapter/include/", "core/", "simd/"),
-    "examples": ("examples/", "bullet_adapter/include/", "core/include/", "core/lcp/include/"),
+    "examples": ("examples/", "bullet_adapter/include/", "core/include/", "core/c/include/",
+                 "core/lcp/include/"),
     "tests": ("",),
 }
 
@@ -81,6 +86,7 @@ THIRD_PARTIES = {
     "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
+    "DART": (r"dart/.*\.hpp$", r"examples/dart/"),
     "Siconos": (r"siconos/", r"bench/lcp/siconos_"),
     "CHOLMOD": (r"suitesparse/", r"bench/micro/cholesky/cholmod_"),
     "Google Benchmark": (r"benchmark/", r"bench/micro/"),

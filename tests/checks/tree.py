@@ -6,7 +6,7 @@ import sys
 ROOT = os.path.normpath(os.path.join(os.path.dirname(__file__), "..", ".."))
 SOURCE_FOLDERS = ("bench", "bullet_adapter", "core", "examples", "simd", "tests")
 TEXT_FOLDERS = SOURCE_FOLDERS + (".ci", "cmake", "docs")
-CPP = (".h", ".cc")
+CPP = (".h", ".cc", ".c")
 
 
 def walk(folders, suffixes=("",)):

@@ -45,7 +45,7 @@ class Consumer:
 
     def build_and_run(self):
         call([self.args.cmake, "--build", self.folder])
-        for program in ("embed", "mixed_lcp", "bullet_swap", "bullet_swap_float64"):
+        for program in ("embed", "engine", "tower", "mixed_lcp", "bullet_swap", "bullet_swap_float64"):
             call([os.path.join(self.folder, program)])
 
     def flags(self, package, kind):
@@ -54,7 +54,9 @@ class Consumer:
         return shlex.split(answer.stdout)
 
     def compile_command(self, example, package, program, *options):
-        return [self.args.cxx, "-std=c++20", *self.flags(package, "--cflags"), *options,
+        in_c = example.endswith(".c")
+        compiler = [self.args.cc, "-std=c11"] if in_c else [self.args.cxx, "-std=c++20"]
+        return [*compiler, *self.flags(package, "--cflags"), *options,
                 os.path.join(EXAMPLES, example), "-o", os.path.join(self.folder, program),
                 *self.flags(package, "--libs")]
 
@@ -66,7 +68,7 @@ class Consumer:
              stdout=subprocess.DEVNULL)
 
     def find_package(self):
-        call(self.configure("-DCONSUMER_COMPONENTS=Core;Lcp;Bullet;BulletFloat64"))
+        call(self.configure("-DCONSUMER_COMPONENTS=Core;C;Lcp;Bullet;BulletFloat64"))
         self.build_and_run()
 
     def add_subdirectory(self):
@@ -78,12 +80,21 @@ class Consumer:
 
     def pkg_config(self):
         os.makedirs(self.folder, exist_ok=True)
-        for example, package in (("embed.cc", "cairn"), ("mixed_lcp.cc", "cairn-lcp"), ("bullet_swap.cc", "cairn-bullet"),
+        for example, package in (("embed.cc", "cairn"), ("tower.c", "cairn-c"), ("mixed_lcp.cc", "cairn-lcp"),
+                                 ("bullet_swap.cc", "cairn-bullet"),
                                  ("bullet_swap.cc", "cairn-bullet-float64")):
             program = os.path.join(self.folder, package)
             call(self.compile_command(example, package, program))
             call([program], env=dict(os.environ, LD_LIBRARY_PATH=os.path.join(
                 self.prefix, self.args.libdir)))
+
+    def c_alone(self):
+        # of a static Cairn, that is; a shared one brings its own libraries with it
+        call([self.args.cmake, "-S", os.path.join(HERE, "c"), "-B", self.folder, "-G", "Ninja",
+              f"-DCMAKE_C_COMPILER={self.args.cc}", f"-DCMAKE_PREFIX_PATH={self.prefix}", "--fresh",
+              "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"])
+        call([self.args.cmake, "--build", self.folder])
+        call([os.path.join(self.folder, "tower")])
 
     def mixed_precisions(self):
         refused(self.configure("-DCONSUMER_MIXES=ON"), "CAIRN_BULLET_PRECISION property of .*bullet3")
@@ -92,7 +103,7 @@ class Consumer:
         refused(self.configure("-DCONSUMER_COMPONENTS=Bullet", "-DCMAKE_DISABLE_FIND_PACKAGE_CairnBullet=ON"),
                 "cairn has no component Bullet: its Bullet was not found .*libbullet-dev")
         refused(self.configure("-DCONSUMER_COMPONENTS=Dynamics"),
-                "cairn has no component Dynamics: there are only Core, Lcp, Bullet and BulletFloat64")
+                "cairn has no component Dynamics: there are only Core, C, Lcp, Bullet and BulletFloat64")
 
     def wrong_precision(self):
         os.makedirs(self.folder, exist_ok=True)
@@ -111,6 +122,7 @@ def main():
     parser.add_argument("--build", required=True, help="the build folder of Cairn")
     parser.add_argument("--cmake", default="cmake")
     parser.add_argument("--cxx", default="g++")
+    parser.add_argument("--cc", default="gcc")
     parser.add_argument("--libdir", default="lib", help="where libraries are, below the prefix")
     args = parser.parse_args()
     getattr(Consumer(args), args.way)()

@@ -23,12 +23,12 @@ struct Velocity {
 
 /// A rigid body at the start of a time step. All vectors in world axes.
 struct Body {
-  double inv_mass = 0;  ///< [1/kg], >= 0; 0 never moves.
+  double inv_mass = 0;  ///< [1/kg], >= 0; 0: no impulse changes its velocity (inv_inertia 0, too).
   /// Inverse inertia about the centre of mass [1/(kg m^2)], symmetric positive semidefinite.
   Eigen::Matrix3d inv_inertia = Eigen::Matrix3d::Zero();
   /// Scales inv_mass along each world axis, >= 0; 0 locks the axis.
   Eigen::Vector3d linear_factor = Eigen::Vector3d::Ones();
-  Velocity velocity;
+  Velocity velocity = {};
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();          ///< External, over the step [N s].
   Eigen::Vector3d angular_impulse = Eigen::Vector3d::Zero();  ///< External [N m s].
   /// Keeps its value while the body lives, 0 if there is no such name. What the solver learns about
@@ -49,8 +49,8 @@ struct Body {
 /// [1] Morales, Nocedal, Smelyanskiy, "An algorithm for the fast solution of symmetric linear
 ///     complementarity problems", Numer. Math. 111 (2008) 251-266.
 struct ContactProblem {
-  std::span<const Body> bodies;
-  std::span<const Row> rows;
+  std::span<const Body> bodies = {};
+  std::span<const Row> rows = {};
   std::span<const Manifold> manifolds = {};
   std::span<const ContactPoint> points = {};  ///< Of the manifolds; others are not looked at.
   ContactLaw contact_law = {};
@@ -67,7 +67,7 @@ std::size_t AllRows(const ContactProblem& problem);
 
 /// Impulses of a problem: where a Solve() starts, and what comes of it.
 struct Impulses {
-  std::span<double> rows;                 ///< One per row [N s] or [N m s].
+  std::span<double> rows = {};            ///< One per row [N s] or [N m s].
   std::span<ContactImpulse> points = {};  ///< One per point of contact.
   std::span<TwistImpulse> twists = {};    ///< One per ContactProblem::twists.
   std::span<float> joint_rows = {};       ///< One per ContactProblem::joint_rows [N s] or [N m s].

@@ -13,21 +13,21 @@ namespace cairn {
 ///   w = J (v - v_free) + compliance x - (target - damping J v_free),
 /// where v_free is how the bodies move without constraints (ContactProblem::motions, if given).
 struct JointRow {
-  float linear_a[3];   ///< Of J; what belongs to kWorld is finite, and does nothing.
-  float target;        ///< [m/s] or [rad/s]
-  float angular_a[3];  ///< Likewise.
-  float compliance;    ///< E [1/kg], >= 0; read if Joint::soft.
-  float linear_b[3];
-  float lo;  ///< [N s] or [N m s], <= hi; read where Joint::bounded says so.
-  float angular_b[3];
-  float hi;  ///< Likewise.
+  float linear_a[3] = {};   ///< Of J; what belongs to kWorld is finite, and does nothing.
+  float target = 0;         ///< [m/s] or [rad/s]
+  float angular_a[3] = {};  ///< Likewise.
+  float compliance = 0;     ///< E [1/kg], >= 0; read if Joint::soft.
+  float linear_b[3] = {};
+  float lo = -kInfinity;  ///< [N s] or [N m s], <= hi; read where Joint::bounded says so.
+  float angular_b[3] = {};
+  float hi = kInfinity;  ///< Likewise.
 };
 
-/// What connects two bodies, at most one of which does not move.
+/// What connects two bodies, at most one of which is kWorld.
 struct Joint {
   static constexpr int kMostRows = 32;
 
-  int body_a, body_b;         ///< Or kWorld.
+  int body_a = kWorld, body_b = kWorld;
   int first_row = 0;          ///< In ContactProblem::joint_rows.
   int rows = 1;               ///< In [1, kMostRows].
   std::uint32_t bounded = 0;  ///< Bit i: row i has bounds, 0 for none.

@@ -19,16 +19,16 @@ namespace cairn {
 /// bounce = -restitution vn where the bodies approach faster than ContactLaw::bounce_speed (vn: the
 /// velocity along the normal before external impulses), else 0.
 struct ContactPoint {
-  float arm_a[3];   ///< From the centre of mass of body_a to the point [m], world axes.
-  float arm_b[3];   ///< Likewise.
-  float normal[3];  ///< Unit vector, from body_b to body_a.
+  float arm_a[3] = {};   ///< From the centre of mass of body_a to the point [m], world axes.
+  float arm_b[3] = {};   ///< Likewise.
+  float normal[3] = {};  ///< Unit vector, from body_b to body_a.
   /// t1, a unit vector across the normal; zeros: where the point slides to, or any direction if it
   /// does not slide.
-  float tangent[3];
-  float bias;         ///< Velocity asked for along the normal: penetration, gaps [m/s].
-  float restitution;  ///< >= 0
-  float friction;     ///< Coefficient, >= 0.
-  float compliance;   ///< E of the normal row [1/kg], >= 0; read if Manifold::soft.
+  float tangent[3] = {};
+  float bias = 0;         ///< Velocity asked for along the normal: penetration, gaps [m/s].
+  float restitution = 0;  ///< >= 0
+  float friction = 0;     ///< Coefficient, >= 0.
+  float compliance = 0;   ///< E of the normal row [1/kg], >= 0; read if Manifold::soft.
 };
 
 /// What a point of contact exerts on body_a (and its opposite on body_b). As a start: that of an
@@ -44,10 +44,10 @@ struct ContactImpulse {
 /// normal, and about the two axes across it, with vectors for body_a (opposite ones for body_b);
 /// bounds +-min(coefficient x_normal, most), target 0.
 struct ContactTwist {
-  float spinning;       ///< Coefficient about the normal [m], >= 0.
-  float rolling;        ///< About the axes across it [m], >= 0.
-  float most_spinning;  ///< However hard the bodies are pressed together [N m s], >= 0.
-  float most_rolling;   ///< Likewise.
+  float spinning = 0;       ///< Coefficient about the normal [m], >= 0.
+  float rolling = 0;        ///< About the axes across it [m], >= 0.
+  float most_spinning = 0;  ///< However hard the bodies are pressed together [N m s], >= 0.
+  float most_rolling = 0;   ///< Likewise.
 };
 
 /// What resistance to turning exerts on body_a [N m s]. As a start: that of an earlier frame, or
@@ -57,11 +57,11 @@ struct TwistImpulse {
   float rolling[2] = {0, 0};
 };
 
-/// Points of contact between two bodies, at most one of which does not move.
+/// Points of contact between two bodies, at most one of which is kWorld.
 struct Manifold {
   static constexpr int kMostPoints = 4;
 
-  int body_a, body_b;        ///< Or kWorld.
+  int body_a = kWorld, body_b = kWorld;
   int first_point = 0;       ///< In ContactProblem::points.
   std::int8_t points = 1;    ///< In [1, kMostPoints].
   std::int8_t tangents = 2;  ///< Directions of friction, in [0, 2].

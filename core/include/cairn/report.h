@@ -45,7 +45,7 @@ std::string_view Describe(Status status);  ///< One sentence for people, without
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
   Status status = Status::kOk;
-  BadSetting bad_setting;  ///< First setting (kBadSettings) or size (kWrongSize) refused.
+  BadSetting bad_setting;  ///< First setting, size (kWrongSize) or bounce speed refused.
   /// The first row, body, manifold or joint refused, -1 if what is wrong is none.
   int bad_row = -1, bad_body = -1, bad_manifold = -1, bad_joint = -1;
   Path path = Path::kAuto;  ///< What solved, kFast or kReference; kAuto: nothing did.

@@ -3,17 +3,13 @@
 #include "cairn/detail/cpp20.h"
 
 #include <Eigen/Core>
-#include <limits>
 
 #include "cairn/detail/host.h"
 
 namespace cairn {
 
-/// The body index of everything that does not move: ground, walls, kinematic bodies.
-inline constexpr int kWorld = -1;
 /// The parent of a row that has bounds of its own.
 inline constexpr int kNoRow = -1;
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// One scalar constraint between two bodies. Its impulse x [N s] (or [N m s] if the row only turns)
 /// and its relative velocity

@@ -268,7 +268,10 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   if (refused(problem.rows.size(), row, &report.bad_row)) return report;
   if (refused(problem.joints.size(), joint, &report.bad_joint)) return report;
   const float bounce = problem.contact_law.bounce_speed;
-  if (!(bounce >= 0)) report.status = Status::kNotFinite;
+  if (!(bounce >= 0)) {
+    report.status = Status::kNotFinite;
+    report.bad_setting = {"problem.contact_law.bounce_speed", bounce, "0 or more"};
+  }
   if (report.ok()) refused(problem.manifolds.size(), manifold, &report.bad_manifold);
   return report;
 }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "pack/block_frame.h"
@@ -318,7 +319,10 @@ TEST(Manifold, IsRefusedWithABounceSpeedThatIsNoSpeed) {
   for (const float speed : {-1.0f, std::numeric_limits<float>::quiet_NaN()}) {
     ManifoldScene scene = test::RandomManifolds(10, 20, 2);
     scene.law.bounce_speed = speed;
-    EXPECT_EQ(Solve(Settings{}, scene).report.status, Status::kNotFinite);
+    const Report report = Solve(Settings{}, scene).report;
+    EXPECT_EQ(report.status, Status::kNotFinite);
+    EXPECT_EQ(Describe(report), std::string("problem.contact_law.bounce_speed is ") +
+                                    (speed < 0 ? "-1" : "nan") + ", must be 0 or more");
   }
 }
 

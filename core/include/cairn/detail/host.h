@@ -34,10 +34,15 @@ struct ContactHost {
 
 namespace cairn {
 
+/// The body index of what does not move: the ground, walls. What you move yourself (a platform, a
+/// door) is a body with inv_mass 0 and a velocity: rows see how it moves, and do not change that.
+inline constexpr int kWorld = -1;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 /// How a body moves before and after external impulses, where ContactProblem::motions says so.
 struct ContactMotion {
-  float free_velocity[3], free_spin[3];    ///< With external impulses [m/s], [rad/s].
-  float start_velocity[3], start_spin[3];  ///< Before them.
+  float free_velocity[3] = {}, free_spin[3] = {};    ///< With external impulses [m/s], [rad/s].
+  float start_velocity[3] = {}, start_spin[3] = {};  ///< Before them.
 };
 
 }  // namespace cairn

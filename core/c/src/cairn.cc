@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/cairn.h"
+
+#include <bit>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cairn/detail/recorder.h"
+#include "cairn/strict.h"
+#include "convert.h"
+
+using namespace cairn;
+
+struct CairnSolver {
+  Solver solver;
+  std::optional<c::CJobs> jobs;
+  Recorder recorder{"cairn.h"};
+  // memory of a step, used again
+  std::vector<Body> bodies;
+  std::vector<Velocity> velocities;
+  Report report;
+  CairnStatus last = cairnOk;  ///< what came of the last step; report may be of an earlier one
+  std::optional<Recording> recorded;  ///< one that is solved, with its start
+};
+
+struct CairnRecording {
+  Recording recording;
+};
+
+namespace {
+
+/// A value of C as C++ has it by default.
+template <class To, class From>
+To Same(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  return std::bit_cast<To>(from);
+}
+
+bool SameLayout(const CairnLayout& a, const CairnLayout& b) {
+  // the patch may differ: neither structs nor their meaning do
+  const bool version = a.version >> 8 == b.version >> 8;
+  return version && a.body == b.body && a.contactPoint == b.contactPoint &&
+         a.contactImpulse == b.contactImpulse && a.contactTwist == b.contactTwist &&
+         a.twistImpulse == b.twistImpulse && a.manifold == b.manifold && a.jointRow == b.jointRow &&
+         a.joint == b.joint && a.problem == b.problem && a.solution == b.solution &&
+         a.settings == b.settings && a.report == b.report && a.island == b.island;
+}
+
+CairnStatus Accept(const CairnSettings& settings, CairnSolver* solver) {
+  if (FindBadSetting(c::ToSettings(settings)).name != nullptr) return cairnBadSettings;
+  solver->jobs.reset();
+  if (settings.jobs.submit != nullptr) solver->jobs.emplace(settings.jobs);
+  solver->solver.settings() = c::ToSettings(settings);
+  solver->solver.settings().executor = solver->jobs ? &*solver->jobs : nullptr;
+  return cairnOk;
+}
+
+/// Solves, and gives a report; velocities come from the memory of the solver.
+CairnStatus Run(const c::View& view, CairnSolver* solver, CairnReport* report) {
+  solver->velocities.resize(view.problem.bodies.size());
+  solver->solver.Solve(view.problem, view.impulses, solver->velocities, &solver->report);
+  if (report != nullptr) *report = c::ToReport(solver->report);
+  return c::ToStatus(solver->report.status);
+}
+
+CairnStatus Refuse(CairnStatus status, CairnReport* report) {
+  if (report == nullptr) return status;
+  *report = c::ToReport({});
+  report->status = status;
+  return status;
+}
+
+}  // namespace
+
+const char* cairnDescribe(CairnStatus status) {
+  switch (status) {
+    case cairnWrongVersion:
+      return "the program was compiled with another version of cairn.h";
+    case cairnNullPointer:
+      return "a pointer is null where its count is above 0, or must not be null";
+    case cairnOutOfMemory:
+      return "out of memory";
+    case cairnBadFile:
+      return "the file cannot be read or written, or is no recording";
+    case cairnFailed:
+      return "failed for a reason that has no name";
+    default:
+      return Describe(static_cast<Status>(status)).data();  // of literals, which end in a zero
+  }
+}
+
+uint32_t cairnVersion(void) { return cairnLayout().version; }
+
+CairnBody cairnDefaultBody(void) {
+  CairnBody body{};
+  for (float& factor : body.linearFactor) factor = 1;
+  return body;
+}
+CairnContactPoint cairnDefaultContactPoint(void) { return Same<CairnContactPoint>(ContactPoint{}); }
+CairnManifold cairnDefaultManifold(void) {
+  return {.bodyA = kWorld,
+          .bodyB = kWorld,
+          .firstPoint = 0,
+          .points = Manifold{}.points,
+          .tangents = Manifold{}.tangents,
+          .soft = false,
+          .twists = false,
+          .sweepLimit = Manifold{}.host.max_sweeps};
+}
+CairnJointRow cairnDefaultJointRow(void) { return Same<CairnJointRow>(JointRow{}); }
+CairnJoint cairnDefaultJoint(void) {
+  return {.bodyA = kWorld,
+          .bodyB = kWorld,
+          .firstRow = 0,
+          .rows = Joint{}.rows,
+          .bounded = 0,
+          .angular = 0,
+          .damping = Joint{}.damping,
+          .soft = false,
+          .opposite = false,
+          .sweepLimit = Joint{}.host.max_sweeps};
+}
+CairnProblem cairnDefaultProblem(void) { return {}; }
+
+CairnSettings cairnDefaultSettings(void) {
+  const Settings from;
+  return {.method = static_cast<CairnMethod>(from.method),
+          .path = static_cast<CairnPath>(from.path),
+          .kGs = from.k_gs,
+          .kSm = from.k_sm,
+          .steps = from.steps,
+          .maxSweeps = from.max_sweeps,
+          .tolerance = from.tolerance,
+          .budgetKind = cairnUnlimited,
+          .budget = 0,
+          .minSweeps = from.tuning.min_sweeps,
+          .threads = from.threads,
+          .jobs = {}};
+}
+
+size_t cairnDescribeSettings(const CairnSettings* settings, char* text, size_t size) {
+  std::string said = cairnDescribe(cairnNullPointer);
+  const CairnStatus status = c::Guarded([&] {
+    if (settings == nullptr) return cairnNullPointer;
+    const BadSetting bad = FindBadSetting(c::ToSettings(*settings));
+    said = bad.name == nullptr ? "" : Describe(bad);
+    return cairnOk;
+  });
+  return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
+}
+
+CairnStatus cairnCreateSolver(CairnLayout layout, const CairnSettings* settings,
+                              CairnSolver** solver) {
+  return c::Guarded([&] {
+    if (!SameLayout(layout, cairnLayout())) return cairnWrongVersion;
+    if (settings == nullptr || solver == nullptr) return cairnNullPointer;
+    auto made = std::make_unique<CairnSolver>();
+    const CairnStatus status = Accept(*settings, made.get());
+    if (status == cairnOk) *solver = made.release();
+    return status;
+  });
+}
+
+void cairnDestroySolver(CairnSolver* solver) { delete solver; }
+
+CairnStatus cairnSetSettings(CairnSolver* solver, const CairnSettings* settings) {
+  return c::Guarded([&] {
+    if (solver == nullptr || settings == nullptr) return cairnNullPointer;
+    return Accept(*settings, solver);
+  });
+}
+
+void cairnReset(CairnSolver* solver) {
+  if (solver != nullptr) solver->solver.Reset();
+}
+
+CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
+                       const CairnSolution* solution, CairnReport* report) {
+  if (solver == nullptr || problem == nullptr || solution == nullptr) {
+    return Refuse(cairnNullPointer, report);
+  }
+  const CairnStatus status = c::Guarded([&] {
+    c::View view;
+    const CairnStatus looked = c::Look(*problem, *solution, &solver->bodies, &view);
+    if (looked != cairnOk) return Refuse(looked, report);
+    if (solution->velocities == nullptr && problem->bodyCount > 0) {
+      return Refuse(cairnNullPointer, report);
+    }
+    const bool recording = solver->recorder.Begin(view.problem, view.impulses);
+    const CairnStatus solved = Run(view, solver, report);
+    if (recording) solver->recorder.End(solver->solver.settings(), solver->report);
+    solver->recorder.NextFrame();
+    if (solved == cairnOk) c::CopyVelocities(solver->velocities, solution->velocities);
+    return solved;
+  });
+  solver->last = status;
+  if (report != nullptr) report->status = status;
+  return status;
+}
+
+size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
+  std::string said;
+  const CairnStatus status = c::Guarded([&] {
+    if (solver == nullptr) return cairnNullPointer;
+    const bool of_last = c::ToStatus(solver->report.status) == solver->last;
+    said = of_last ? Describe(solver->report) : cairnDescribe(solver->last);
+    return cairnOk;
+  });
+  return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
+}
+
+CairnStatus cairnGetIsland(const CairnSolver* solver, int32_t index, CairnIsland* island) {
+  if (solver == nullptr || island == nullptr) return cairnNullPointer;
+  const std::vector<IslandReport>& islands = solver->report.islands;
+  if (index < 0 || static_cast<size_t>(index) >= islands.size()) return cairnWrongSize;
+  *island = c::ToIsland(islands[index]);
+  return cairnOk;
+}
+
+const int32_t* cairnIslandOf(const CairnSolver* solver, int32_t* count) {
+  const bool known = solver != nullptr && !solver->report.island_of.empty();
+  if (count != nullptr) *count = known ? static_cast<int32_t>(solver->report.island_of.size()) : 0;
+  return known ? solver->report.island_of.data() : nullptr;
+}
+
+size_t cairnValidateStrictly(const CairnProblem* problem, const CairnSolution* solution, char* text,
+                             size_t size) {
+  std::string said;
+  const CairnStatus status = c::Guarded([&] {
+    if (problem == nullptr || solution == nullptr) return cairnNullPointer;
+    std::vector<Body> bodies;
+    c::View view;
+    const CairnStatus looked = c::Look(*problem, *solution, &bodies, &view);
+    if (looked != cairnOk) return looked;
+    for (const Finding& finding : ValidateStrictly(view.problem, view.impulses)) {
+      said.append(Describe(finding)).append("\n");
+    }
+    return cairnOk;
+  });
+  return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
+}
+
+CairnStatus cairnRecordNext(CairnSolver* solver, const char* path) {
+  return c::Guarded([&] {
+    if (solver == nullptr || path == nullptr) return cairnNullPointer;
+    solver->recorder.RecordNext(path);
+    return cairnOk;
+  });
+}
+
+int32_t cairnRecordedFiles(const CairnSolver* solver) {
+  return solver == nullptr ? 0 : solver->recorder.files().written;
+}
+
+CairnStatus cairnLoadRecording(const char* path, CairnRecording** recording) {
+  return c::Guarded([&] {
+    if (path == nullptr || recording == nullptr) return cairnNullPointer;
+    auto loaded = std::make_unique<CairnRecording>();
+    if (!Load(path, &loaded->recording).ok()) return cairnBadFile;
+    *recording = loaded.release();
+    return cairnOk;
+  });
+}
+
+void cairnFreeRecording(CairnRecording* recording) { delete recording; }
+
+int32_t cairnRecordingBodies(const CairnRecording* recording) {
+  return recording == nullptr ? 0 : static_cast<int32_t>(recording->recording.bodies.size());
+}
+
+CairnStatus cairnSolveRecording(CairnSolver* solver, const CairnRecording* recording,
+                                CairnVelocity* velocities, CairnReport* report) {
+  if (solver == nullptr || recording == nullptr) return Refuse(cairnNullPointer, report);
+  const CairnStatus status = c::Guarded([&] {
+    solver->recorded = recording->recording;
+    Recording& copy = *solver->recorded;
+    const CairnStatus solved = Run({copy.problem(), copy.impulses()}, solver, report);
+    if (solved == cairnOk && velocities != nullptr) {
+      c::CopyVelocities(solver->velocities, velocities);
+    }
+    return solved;
+  });
+  solver->last = status;
+  if (report != nullptr) report->status = status;
+  return status;
+}

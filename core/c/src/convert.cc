@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include "convert.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+namespace cairn::c {
+namespace {
+
+// what is read where it lies: one layout in both languages
+#define CAIRN_SAME_SIZE(c_type, type) \
+  static_assert(sizeof(c_type) == sizeof(type) && alignof(c_type) == alignof(type))
+#define CAIRN_SAME_FIELD(c_type, c_field, type, field)                \
+  static_assert(offsetof(c_type, c_field) == offsetof(type, field) && \
+                sizeof(c_type::c_field) == sizeof(type::field))
+CAIRN_SAME_SIZE(CairnContactPoint, ContactPoint);
+CAIRN_SAME_FIELD(CairnContactPoint, armA, ContactPoint, arm_a);
+CAIRN_SAME_FIELD(CairnContactPoint, armB, ContactPoint, arm_b);
+CAIRN_SAME_FIELD(CairnContactPoint, normal, ContactPoint, normal);
+CAIRN_SAME_FIELD(CairnContactPoint, tangent, ContactPoint, tangent);
+CAIRN_SAME_FIELD(CairnContactPoint, bias, ContactPoint, bias);
+CAIRN_SAME_FIELD(CairnContactPoint, restitution, ContactPoint, restitution);
+CAIRN_SAME_FIELD(CairnContactPoint, friction, ContactPoint, friction);
+CAIRN_SAME_FIELD(CairnContactPoint, compliance, ContactPoint, compliance);
+CAIRN_SAME_SIZE(CairnContactImpulse, ContactImpulse);
+CAIRN_SAME_FIELD(CairnContactImpulse, tangential, ContactImpulse, tangential);
+CAIRN_SAME_FIELD(CairnContactImpulse, heading, ContactImpulse, heading);
+CAIRN_SAME_FIELD(CairnContactImpulse, direction, ContactImpulse, direction);
+CAIRN_SAME_SIZE(CairnContactTwist, ContactTwist);
+CAIRN_SAME_FIELD(CairnContactTwist, rolling, ContactTwist, rolling);
+CAIRN_SAME_FIELD(CairnContactTwist, mostSpinning, ContactTwist, most_spinning);
+CAIRN_SAME_FIELD(CairnContactTwist, mostRolling, ContactTwist, most_rolling);
+CAIRN_SAME_SIZE(CairnTwistImpulse, TwistImpulse);
+CAIRN_SAME_FIELD(CairnTwistImpulse, rolling, TwistImpulse, rolling);
+CAIRN_SAME_SIZE(CairnManifold, Manifold);
+CAIRN_SAME_FIELD(CairnManifold, bodyB, Manifold, body_b);
+CAIRN_SAME_FIELD(CairnManifold, firstPoint, Manifold, first_point);
+CAIRN_SAME_FIELD(CairnManifold, points, Manifold, points);
+CAIRN_SAME_FIELD(CairnManifold, tangents, Manifold, tangents);
+CAIRN_SAME_FIELD(CairnManifold, soft, Manifold, soft);
+CAIRN_SAME_FIELD(CairnManifold, twists, Manifold, twists);
+CAIRN_SAME_FIELD(CairnManifold, sweepLimit, Manifold, host.max_sweeps);
+CAIRN_SAME_SIZE(CairnJointRow, JointRow);
+CAIRN_SAME_FIELD(CairnJointRow, target, JointRow, target);
+CAIRN_SAME_FIELD(CairnJointRow, angularA, JointRow, angular_a);
+CAIRN_SAME_FIELD(CairnJointRow, compliance, JointRow, compliance);
+CAIRN_SAME_FIELD(CairnJointRow, linearB, JointRow, linear_b);
+CAIRN_SAME_FIELD(CairnJointRow, lo, JointRow, lo);
+CAIRN_SAME_FIELD(CairnJointRow, angularB, JointRow, angular_b);
+CAIRN_SAME_FIELD(CairnJointRow, hi, JointRow, hi);
+CAIRN_SAME_SIZE(CairnJoint, Joint);
+CAIRN_SAME_FIELD(CairnJoint, bodyB, Joint, body_b);
+CAIRN_SAME_FIELD(CairnJoint, firstRow, Joint, first_row);
+CAIRN_SAME_FIELD(CairnJoint, rows, Joint, rows);
+CAIRN_SAME_FIELD(CairnJoint, bounded, Joint, bounded);
+CAIRN_SAME_FIELD(CairnJoint, angular, Joint, angular);
+CAIRN_SAME_FIELD(CairnJoint, damping, Joint, damping);
+CAIRN_SAME_FIELD(CairnJoint, soft, Joint, soft);
+CAIRN_SAME_FIELD(CairnJoint, opposite, Joint, opposite);
+CAIRN_SAME_FIELD(CairnJoint, sweepLimit, Joint, host.max_sweeps);
+static_assert(CAIRN_WORLD == kWorld);
+#undef CAIRN_SAME_SIZE
+#undef CAIRN_SAME_FIELD
+
+// enums are the same numbers
+static_assert(int{cairnBadSettings} == static_cast<int>(Status::kBadSettings));
+static_assert(int{cairnNotFinite} == static_cast<int>(Status::kNotFinite));
+static_assert(int{cairnBadParent} == static_cast<int>(Status::kBadParent));
+static_assert(int{cairnOverflow} == static_cast<int>(Status::kOverflow));
+static_assert(int{cairnPgsSm} == static_cast<int>(Method::kPgsSm));
+static_assert(int{cairnReference} == static_cast<int>(Path::kReference));
+static_assert(int{cairnBrokeDown} == static_cast<int>(StopReason::kBrokeDown));
+static_assert(int{cairnWorkSpent} == static_cast<int>(StopReason::kWorkSpent));
+static_assert(int{cairnWork} == static_cast<int>(Budget::Kind::kWork));
+
+/// A span over an array of C as one of C++, which has the same layout.
+template <class To, class From>
+std::span<To> Over(From* from, std::int32_t count) {
+  return {reinterpret_cast<To*>(from), static_cast<size_t>(count)};
+}
+
+Budget ToBudget(CairnBudgetKind kind, std::int64_t amount) {
+  if (kind == cairnTime) return Budget::Time(std::chrono::nanoseconds(amount));
+  return kind == cairnWork ? Budget::Work(amount) : Budget::Unlimited();
+}
+
+}  // namespace
+
+Settings ToSettings(const CairnSettings& from) {
+  Settings settings;
+  settings.method = static_cast<Method>(from.method);
+  settings.path = static_cast<Path>(from.path);
+  settings.k_gs = from.kGs;
+  settings.k_sm = from.kSm;
+  settings.steps = from.steps;
+  settings.max_sweeps = from.maxSweeps;
+  settings.tolerance = from.tolerance;
+  settings.budget = ToBudget(from.budgetKind, from.budget);
+  settings.tuning.min_sweeps = from.minSweeps;
+  settings.threads = from.threads;
+  return settings;
+}
+
+CairnStatus ToStatus(Status status) { return static_cast<CairnStatus>(status); }
+
+CairnReport ToReport(const Report& from) {
+  return {.status = ToStatus(from.status),
+          .badBody = from.bad_body,
+          .badManifold = from.bad_manifold,
+          .badJoint = from.bad_joint,
+          .stop = static_cast<CairnStop>(from.stop),
+          .path = static_cast<CairnPath>(from.path),
+          .residualMax = from.residual_max,
+          .residualAngular = from.residual_angular,
+          .sweeps = from.sweeps,
+          .factorisations = from.factorisations,
+          .stepsAccepted = from.steps_accepted,
+          .stepsRestored = from.steps_restored,
+          .guarded = from.guarded,
+          .islandCount = static_cast<std::int32_t>(from.islands.size()),
+          .work = from.work,
+          .elapsed = from.elapsed.count()};
+}
+
+CairnIsland ToIsland(const IslandReport& from) {
+  return {.firstBody = from.first_body,
+          .bodies = from.bodies,
+          .rows = from.rows,
+          .sweeps = from.sweeps,
+          .factorisations = from.factorisations,
+          .stepsAccepted = from.steps_accepted,
+          .stepsRestored = from.steps_restored,
+          .stop = static_cast<CairnStop>(from.stop),
+          .guarded = from.guards.any(),
+          .residualBefore = from.residual_before.max,
+          .residual = from.residual.max,
+          .residualAngular = from.residual.max_angular};
+}
+
+void CopyBodies(std::span<const CairnBody> from, std::vector<Body>* to) {
+  to->resize(from.size());
+  const auto vector = [](const float* v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
+  for (size_t i = 0; i < from.size(); ++i) {
+    const CairnBody& body = from[i];
+    Body& result = (*to)[i];
+    result.inv_mass = body.invMass;
+    // symmetric, but for rounding: rows are as good as columns
+    for (int k = 0; k < 9; ++k) result.inv_inertia(k / 3, k % 3) = body.invInertia[k];
+    result.linear_factor = vector(body.linearFactor);
+    result.velocity = {vector(body.velocity.linear), vector(body.velocity.angular)};
+    result.impulse = vector(body.impulse);
+    result.angular_impulse = vector(body.angularImpulse);
+    result.id = body.id;
+  }
+}
+
+void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to) {
+  for (const Velocity& velocity : from) {
+    for (int k = 0; k < 3; ++k) {
+      to->linear[k] = static_cast<float>(velocity.linear[k]);
+      to->angular[k] = static_cast<float>(velocity.angular[k]);
+    }
+    ++to;
+  }
+}
+
+CairnStatus Look(const CairnProblem& from, const CairnSolution& solution, std::vector<Body>* bodies,
+                 View* view) {
+  const std::int32_t counts[] = {from.bodyCount,  from.manifoldCount, from.pointCount,
+                                 from.twistCount, from.jointCount,    from.jointRowCount};
+  if (*std::min_element(std::begin(counts), std::end(counts)) < 0) return cairnWrongSize;
+  const auto missing = [](std::int32_t count, const auto*... arrays) {
+    return count > 0 && (... || (arrays == nullptr));
+  };
+  if (missing(from.bodyCount, from.bodies) || missing(from.manifoldCount, from.manifolds) ||
+      missing(from.pointCount, from.points, solution.points) ||
+      missing(from.twistCount, from.twists, solution.twists) ||
+      missing(from.jointCount, from.joints) ||
+      missing(from.jointRowCount, from.jointRows, solution.jointRows)) {
+    return cairnNullPointer;
+  }
+  CopyBodies({from.bodies, static_cast<size_t>(from.bodyCount)}, bodies);
+  view->problem = {.bodies = *bodies,
+                   .manifolds = Over<const Manifold>(from.manifolds, from.manifoldCount),
+                   .points = Over<const ContactPoint>(from.points, from.pointCount),
+                   .contact_law = {.bounce_speed = from.bounceSpeed},
+                   .twists = Over<const ContactTwist>(from.twists, from.twistCount),
+                   .joints = Over<const Joint>(from.joints, from.jointCount),
+                   .joint_rows = Over<const JointRow>(from.jointRows, from.jointRowCount)};
+  view->impulses = {.points = Over<ContactImpulse>(solution.points, from.pointCount),
+                    .twists = Over<TwistImpulse>(solution.twists, from.twistCount),
+                    .joint_rows = Over<float>(solution.jointRows, from.jointRowCount)};
+  return cairnOk;
+}
+
+std::size_t PutText(std::string_view text, char* to, std::size_t size) {
+  if (to != nullptr && size > 0) {
+    const std::size_t copied = std::min(text.size(), size - 1);
+    std::memcpy(to, text.data(), copied);
+    to[copied] = '\0';
+  }
+  return text.size();
+}
+
+}  // namespace cairn::c

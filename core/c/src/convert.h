@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Between the structs of C and those of C++.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "cairn/cairn.h"
+#include "cairn/solver.h"
+
+namespace cairn::c {
+
+/// Threads of a C program.
+class CJobs final : public Executor {
+ public:
+  explicit CJobs(const CairnJobs& jobs) : jobs_(jobs) {}
+  void Submit(void (*work)(void*), void* what) override { jobs_.submit(work, what, jobs_.context); }
+
+  const CairnJobs& jobs() const { return jobs_; }
+
+ private:
+  CairnJobs jobs_;
+};
+
+/// Without the job system.
+Settings ToSettings(const CairnSettings& settings);
+CairnStatus ToStatus(Status status);
+CairnReport ToReport(const Report& report);
+CairnIsland ToIsland(const IslandReport& island);
+void CopyBodies(std::span<const CairnBody> from, std::vector<Body>* to);
+void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to);
+
+/// A problem whose counts and pointers fit one another, over the memory of the caller.
+struct View {
+  ContactProblem problem;
+  Impulses impulses;
+};
+/// cairnOk, or what is wrong with counts and pointers. @param bodies  those of the problem
+CairnStatus Look(const CairnProblem& problem, const CairnSolution& solution,
+                 std::vector<Body>* bodies, View* view);
+
+/// What snprintf does with "%s".
+std::size_t PutText(std::string_view text, char* to, std::size_t size);
+
+/// Runs function, which returns a CairnStatus; exceptions become one.
+template <class Function>
+CairnStatus Guarded(const Function& function) noexcept {
+  try {
+    return function();
+  } catch (const std::bad_alloc&) {
+    return cairnOutOfMemory;
+  } catch (...) {
+    return cairnFailed;
+  }
+}
+
+}  // namespace cairn::c

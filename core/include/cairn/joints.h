@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include "cairn/detail/cpp20.h"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cairn/contacts.h"
+
+namespace cairn {
+
+/// One way in which two bodies may move against each other: along an axis [m, m/s, N] or about it
+/// [rad, rad/s, N m]. As it comes: free. Positive is body a along the axis, or turning about it by
+/// the right hand, as seen from body b.
+struct JointAxis {
+  double lo = -kInfinity, hi = kInfinity;  ///< Limits, lo <= hi; equal: held there.
+  double speed = 0;                        ///< That the motor wants.
+  double motor_most = 0;                   ///< Its largest force, >= 0; 0: no motor.
+  double rest = 0;                         ///< Where the spring wants to be: a target.
+  double frequency = 0;                    ///< Of the spring [Hz], >= 0; 0: no spring.
+  double damping_ratio = 1;                ///< Of the spring, >= 0. 1 is critical.
+  double spring_most = kInfinity;          ///< Its largest force, > 0.
+};
+
+/// All ways: the point of a along the axes of b, the twist about their x axes, in (-pi, pi], and
+/// the angle between these, at most cone [rad]; 0: they stay parallel, pi and more: free.
+struct JointKind {
+  JointAxis linear[3];
+  JointAxis twist;
+  double cone = kInfinity;
+};
+
+JointKind BallJoint();
+JointKind HingeJoint(const JointAxis& about_x = {});
+JointKind SliderJoint(const JointAxis& along_x = {});
+JointKind FixedJoint();
+JointKind ConeTwistJoint(double cone, const JointAxis& twist);
+
+/// What a joint holds of one body, at the start of the step, in the world.
+struct JointSide {
+  int body = kWorld;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Of mass [m]; not looked at for kWorld.
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< A point of the body [m].
+  /// Columns: three unit vectors at right angles, right-handed, that turn with the body. Those of
+  /// both sides agree where all angles are 0.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+};
+
+/// Makes joints, and starts their rows from what they exerted in the last frame. In each frame:
+/// Begin(), Add() for each joint, Solve() with joints(), rows() and impulses(). A frame with no
+/// more joints than an earlier one allocates nothing.
+///
+/// Rows of an axis, in this order, so that the same kind always has the same rows (C: position, h:
+/// time step; w = dC/dt):
+///   held:    w = -erp (C - lo) / h;
+///   limit:   the nearer one: w >= (lo - C) / h where there is room, erp (lo - C) / h where not;
+///   motor:   w = speed, as far as an impulse of +-h motor_most does it;
+///   spring:  an implicit step of it, within +-h spring_most: as soft contacts in contacts.h.
+class Joints {
+ public:
+  Joints() = default;
+  /// @param erp  share of an error that is taken back in a step, in [0, 1]
+  explicit Joints(double erp) : erp_(erp) {}
+
+  /// Begins a frame. The bodies are looked at until the last Add().
+  void Begin(const StepInput& step);
+  /// @param id  names the joint while it lives; 0: no name, no warm start
+  /// @return    its place in joints(); -1 if the kind holds nothing, and nothing was added
+  int Add(const JointKind& kind, const JointSide& a, const JointSide& b, std::uint64_t id);
+  /// An axis along the line between the anchors: a rod where it is held, a rope with a limit hi, a
+  /// spring. Axes of the sides are not looked at.
+  int AddDistance(const JointAxis& length, const JointSide& a, const JointSide& b,
+                  std::uint64_t id);
+
+  std::span<const Joint> joints() const { return joints_; }
+  std::span<const JointRow> rows() const { return rows_; }
+  std::span<float> impulses() { return impulses_; }
+  /// What the rows of a joint exerted [N s] or [N m s], after Solve().
+  std::span<const float> impulses_of(int joint) const {
+    return std::span(impulses_).subspan(joints_[joint].first_row, joints_[joint].rows);
+  }
+
+ private:
+  struct Way;
+  struct Kept {
+    std::uint64_t id;
+    int first, rows;  ///< in kept_impulses_
+  };
+
+  void Open(const JointSide& a, const JointSide& b);
+  void AddAxis(const JointAxis& axis, const Way& way, double position);
+  void AddCone(double cone, const JointSide& a, const JointSide& b);
+  JointRow& AddRow(const Way& way);
+  int Close(std::uint64_t id);
+
+  double erp_ = 0.2;
+  StepInput step_;
+  std::vector<Joint> joints_;
+  std::vector<JointRow> rows_;
+  std::vector<float> impulses_, kept_impulses_;
+  std::vector<std::uint64_t> ids_;  ///< of joints_
+  std::vector<Kept> kept_;          ///< of the last frame, by id
+};
+
+/// The frame that these make, and where it starts. Both point into them: no Begin() or Add()
+/// between this and Solve().
+ContactProblem ProblemOf(const StepInput& step, const Contacts& contacts, const Joints& joints);
+Impulses StartOf(Contacts* contacts, Joints* joints);
+
+}  // namespace cairn

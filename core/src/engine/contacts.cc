@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/contacts.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/step_body.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The law of a normal row.
+struct NormalLaw {
+  double bias;
+  double compliance;
+};
+
+/// How a point moves along its normal.
+struct Approach {
+  double start;     ///< v0 [m/s], below 0 towards each other
+  double free;      ///< after external impulses
+  double mobility;  ///< J M^-1 J' [1/kg]
+};
+
+/// Speed to leave with, so that the energy E of contacts.h is e^2 times that before.
+double BounceSpeed(double restitution, const Approach& approach, double gap, double h) {
+  const double pressed = std::max(0.0, approach.start - approach.free);  // g' h
+  const double fall = pressed / h;
+  const double before = approach.start - pressed / 2;
+  const double energy = std::max(0.0, before * before / 2 + fall * gap);
+  const double after = restitution * restitution * energy - fall * gap;
+  return std::sqrt(2 * std::max(0.0, after)) - pressed / 2;
+}
+
+NormalLaw LawOf(const ContactOptions& options, double restitution, const Approach& approach,
+                double depth, double h) {
+  NormalLaw law{.bias = depth / h, .compliance = 0};
+  if (depth >= 0) {
+    const double frequency = std::min(options.frequency, 0.25 / h);
+    const SoftRow soft = frequency > 0
+                             ? Soften(frequency, options.damping_ratio, approach.mobility, h)
+                             : SoftRow{.share = options.erp, .compliance = 0};
+    law.bias = std::min(options.max_push, soft.share * std::max(0.0, depth - options.slop) / h);
+    law.compliance = soft.compliance;
+  }
+  const bool bounces = restitution > 0 && -approach.start >= options.min_bounce &&
+                       -approach.start > 0 && h * approach.free <= depth;
+  if (!bounces) return law;
+  return {.bias = std::max(law.bias, BounceSpeed(restitution, approach, -depth, h)),
+          .compliance = 0};
+}
+
+}  // namespace
+
+void Contacts::Begin(const StepInput& step) {
+  kept_.clear();
+  for (size_t i = 0; i < keys_.size(); ++i) {
+    if (keys_[i].id != 0) kept_.push_back({keys_[i], static_cast<int>(i), impulses_[i]});
+  }
+  // of two with one name the first counts; a stable sort would allocate
+  std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
+    return a.key != b.key ? a.key < b.key : a.place < b.place;
+  });
+  step_ = step;
+  manifolds_.clear();
+  points_.clear();
+  impulses_.clear();
+  keys_.clear();
+}
+
+void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
+  Manifold* manifold = nullptr;
+  for (const TouchPoint& point : points) {
+    if (-point.depth > options_.max_gap) continue;
+    if (manifold == nullptr || manifold->points == Manifold::kMostPoints) {
+      manifold = &manifolds_.emplace_back();
+      manifold->body_a = touch.body_a;
+      manifold->body_b = touch.body_b;
+      manifold->first_point = static_cast<int>(points_.size());
+      manifold->points = 0;
+      manifold->tangents = touch.friction > 0 ? 2 : 0;
+      manifold->soft = options_.frequency > 0;
+    }
+    ++manifold->points;
+    points_.push_back(PointOf(touch, point));
+    keys_.push_back({touch.id, point.feature});
+    impulses_.push_back(StartAt(keys_.back()));
+  }
+}
+
+ContactPoint Contacts::PointOf(const Touch& touch, const TouchPoint& from) const {
+  const auto arm = [&from](int body, const Vector3d& centre) -> Vector3d {
+    if (body == kWorld) return Vector3d::Zero();
+    return from.position - centre;
+  };
+  const Vector3d arm_a = arm(touch.body_a, touch.centre_a);
+  const Vector3d arm_b = arm(touch.body_b, touch.centre_b);
+  const HalfRow a{touch.normal, arm_a.cross(touch.normal)};
+  const HalfRow b{-touch.normal, -arm_b.cross(touch.normal)};
+  const Approach approach{
+      .start = Along(a, StartVelocity(step_, touch.body_a)) +
+               Along(b, StartVelocity(step_, touch.body_b)),
+      .free =
+          Along(a, FreeVelocity(step_, touch.body_a)) + Along(b, FreeVelocity(step_, touch.body_b)),
+      .mobility = Mobility(step_, touch.body_a, a) + Mobility(step_, touch.body_b, b)};
+  const NormalLaw law = LawOf(options_, touch.restitution, approach, from.depth, step_.time_step);
+
+  ContactPoint point;
+  PutFloats(arm_a, point.arm_a);
+  PutFloats(arm_b, point.arm_b);
+  PutFloats(touch.normal, point.normal);
+  point.bias = static_cast<float>(law.bias);
+  point.friction = static_cast<float>(touch.friction);
+  point.compliance = static_cast<float>(law.compliance);
+  return point;
+}
+
+ContactImpulse Contacts::StartAt(const Key& key) const {
+  if (key.id == 0) return {};
+  const auto found =
+      std::lower_bound(kept_.begin(), kept_.end(), key,
+                       [](const Kept& kept, const Key& wanted) { return kept.key < wanted; });
+  return found != kept_.end() && found->key == key ? found->impulse : ContactImpulse{};
+}
+
+}  // namespace cairn

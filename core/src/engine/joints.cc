@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "cairn/joints.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/angle.h"
+#include "engine/step_body.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr JointAxis kHeld{.lo = 0, .hi = 0};
+
+/// Twist of a against b about their x axes, and the axis that it turns about while the angle
+/// between these stays as it is.
+struct Twist {
+  double angle;
+  Vector3d axis;
+};
+
+Twist TwistOf(const JointSide& a, const JointSide& b) {
+  const Eigen::Quaterniond turn(Eigen::Matrix3d(b.axes.transpose() * a.axes));
+  const Vector3d x_a = a.axes.col(0), x_b = b.axes.col(0);
+  // (x_a + x_b) / (1 + x_a.x_b) has no bound where these are opposite
+  const double both = 1 + x_a.dot(x_b);
+  const Vector3d axis = both > 0.1 ? Vector3d((x_a + x_b) / both) : x_b;
+  return {.angle = WrapAngle(2 * ArcTan2(turn.x(), turn.w())), .axis = axis};
+}
+
+}  // namespace
+
+/// The rows of one axis, as vectors of body a; those of b are opposite but for the arm.
+struct Joints::Way {
+  HalfRow a, b;
+  bool turns;
+};
+
+JointKind BallJoint() { return {.linear = {kHeld, kHeld, kHeld}, .twist = {}}; }
+
+JointKind HingeJoint(const JointAxis& about_x) {
+  return {.linear = {kHeld, kHeld, kHeld}, .twist = about_x, .cone = 0};
+}
+
+JointKind SliderJoint(const JointAxis& along_x) {
+  return {.linear = {along_x, kHeld, kHeld}, .twist = kHeld, .cone = 0};
+}
+
+JointKind FixedJoint() { return HingeJoint(kHeld); }
+
+JointKind ConeTwistJoint(double cone, const JointAxis& twist) {
+  return {.linear = {kHeld, kHeld, kHeld}, .twist = twist, .cone = cone};
+}
+
+void Joints::Begin(const StepInput& step) {
+  kept_.clear();
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    if (ids_[i] != 0) kept_.push_back({ids_[i], joints_[i].first_row, joints_[i].rows});
+  }
+  // of two with one name the first counts; a stable sort would allocate
+  std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
+    return a.id != b.id ? a.id < b.id : a.first < b.first;
+  });
+  kept_impulses_.swap(impulses_);
+  step_ = step;
+  joints_.clear();
+  rows_.clear();
+  impulses_.clear();
+  ids_.clear();
+}
+
+int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, std::uint64_t id) {
+  Open(a, b);
+  const Vector3d apart = a.anchor - b.anchor;
+  for (int i = 0; i < 3; ++i) {
+    // both arms end in the anchor of a: the axis turns with b
+    const Vector3d axis = b.axes.col(i);
+    const Way way{.a = {axis, (a.anchor - a.centre).cross(axis)},
+                  .b = {-axis, -(a.anchor - b.centre).cross(axis)},
+                  .turns = false};
+    AddAxis(kind.linear[i], way, axis.dot(apart));
+  }
+  AddCone(kind.cone, a, b);
+  const Twist twist = TwistOf(a, b);
+  AddAxis(
+      kind.twist,
+      {.a = {Vector3d::Zero(), twist.axis}, .b = {Vector3d::Zero(), -twist.axis}, .turns = true},
+      twist.angle);
+  return Close(id);
+}
+
+int Joints::AddDistance(const JointAxis& length, const JointSide& a, const JointSide& b,
+                        std::uint64_t id) {
+  Open(a, b);
+  const Vector3d apart = a.anchor - b.anchor;
+  const double distance = apart.norm();
+  const Vector3d axis = distance > 1e-9 ? Vector3d(apart / distance) : Vector3d::UnitX();
+  AddAxis(length,
+          {.a = {axis, (a.anchor - a.centre).cross(axis)},
+           .b = {-axis, -(b.anchor - b.centre).cross(axis)},
+           .turns = false},
+          distance);
+  return Close(id);
+}
+
+void Joints::Open(const JointSide& a, const JointSide& b) {
+  Joint& joint = joints_.emplace_back();
+  joint.body_a = a.body;
+  joint.body_b = b.body;
+  joint.first_row = static_cast<int>(rows_.size());
+  joint.rows = 0;
+  joint.opposite = true;
+}
+
+JointRow& Joints::AddRow(const Way& way) {
+  Joint& joint = joints_.back();
+  if (way.turns) joint.angular |= std::uint32_t{1} << joint.rows;
+  ++joint.rows;
+  JointRow& row = rows_.emplace_back();
+  const auto put = [](int body, const HalfRow& from, float* linear, float* angular) {
+    PutFloats(from.linear, linear);
+    PutFloats(body == kWorld ? Vector3d(Vector3d::Zero()) : from.angular, angular);
+  };
+  put(joint.body_a, way.a, row.linear_a, row.angular_a);
+  put(joint.body_b, way.b, row.linear_b, row.angular_b);
+  return row;
+}
+
+void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
+  const double h = step_.time_step;
+  const auto bound = [this](double lo, double hi, JointRow* row) {
+    Joint& joint = joints_.back();
+    joint.bounded |= std::uint32_t{1} << (joint.rows - 1);
+    row->lo = static_cast<float>(lo);
+    row->hi = static_cast<float>(hi);
+  };
+  if (axis.lo == axis.hi) {
+    AddRow(way).target = static_cast<float>(-erp_ * (position - axis.lo) / h);
+  } else if (axis.lo > -kInfinity || axis.hi < kInfinity) {
+    const bool lower = position - axis.lo <= axis.hi - position;
+    const double to_limit = (lower ? axis.lo : axis.hi) - position;
+    const bool inside = lower ? to_limit <= 0 : to_limit >= 0;
+    JointRow& row = AddRow(way);
+    row.target = static_cast<float>((inside ? 1 : erp_) * to_limit / h);
+    lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
+  }
+  if (axis.motor_most > 0) {
+    JointRow& row = AddRow(way);
+    row.target = static_cast<float>(axis.speed);
+    bound(-h * axis.motor_most, h * axis.motor_most, &row);
+  }
+  if (axis.frequency > 0) {
+    const Joint& joint = joints_.back();
+    const double mobility =
+        Mobility(step_, joint.body_a, way.a) + Mobility(step_, joint.body_b, way.b);
+    const SoftRow soft = Soften(axis.frequency, axis.damping_ratio, mobility, h);
+    JointRow& row = AddRow(way);
+    row.target = static_cast<float>(-soft.share * (position - axis.rest) / h);
+    row.compliance = static_cast<float>(soft.compliance);
+    joints_.back().soft = true;
+    if (axis.spring_most < kInfinity) bound(-h * axis.spring_most, h * axis.spring_most, &row);
+  }
+}
+
+void Joints::AddCone(double cone, const JointSide& a, const JointSide& b) {
+  const Vector3d x_a = a.axes.col(0), x_b = b.axes.col(0), across = x_b.cross(x_a);
+  const double sine = across.norm(), cosine = x_b.dot(x_a);
+  const double angle = ArcTan2(sine, cosine);
+  const Vector3d axis = sine > 1e-9 ? Vector3d(across / sine) : Vector3d(b.axes.col(1));
+  const auto about = [](const Vector3d& u) {
+    return Way{.a = {Vector3d::Zero(), u}, .b = {Vector3d::Zero(), -u}, .turns = true};
+  };
+  if (cone > 0) {
+    if (cone < kPi) AddAxis({.hi = cone}, about(axis), angle);
+    return;
+  }
+  for (int i = 1; i < 3; ++i) {
+    const Vector3d u = b.axes.col(i);
+    AddAxis(kHeld, about(u), angle * axis.dot(u));
+  }
+}
+
+int Joints::Close(std::uint64_t id) {
+  const Joint& joint = joints_.back();
+  if (joint.rows == 0) {
+    joints_.pop_back();
+    return -1;
+  }
+  ids_.push_back(id);
+  impulses_.resize(rows_.size(), 0);
+  const auto found =
+      std::lower_bound(kept_.begin(), kept_.end(), id,
+                       [](const Kept& kept, std::uint64_t wanted) { return kept.id < wanted; });
+  const bool known = id != 0 && found != kept_.end() && found->id == id;
+  if (known && found->rows == joint.rows) {
+    std::copy_n(kept_impulses_.begin() + found->first, joint.rows,
+                impulses_.begin() + joint.first_row);
+  }
+  return static_cast<int>(joints_.size()) - 1;
+}
+
+ContactProblem ProblemOf(const StepInput& step, const Contacts& contacts, const Joints& joints) {
+  return {.bodies = step.bodies,
+          .manifolds = contacts.manifolds(),
+          .points = contacts.points(),
+          .joints = joints.joints(),
+          .joint_rows = joints.rows()};
+}
+
+Impulses StartOf(Contacts* contacts, Joints* joints) {
+  return {.points = contacts->impulses(), .joint_rows = joints->impulses()};
+}
+
+}  // namespace cairn

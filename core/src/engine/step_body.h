@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// How bodies of a step move, and how hard they are to move, along a row.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cairn/contacts.h"
+
+namespace cairn {
+
+/// Two vectors of J for one body.
+struct HalfRow {
+  Eigen::Vector3d linear, angular;
+};
+
+/// Velocity of a body before external impulses, and after them.
+inline Velocity StartVelocity(const StepInput& step, int body) {
+  return body == kWorld ? Velocity{} : step.bodies[body].velocity;
+}
+
+inline Velocity FreeVelocity(const StepInput& step, int body) {
+  if (body == kWorld) return {};
+  const Body& b = step.bodies[body];
+  const Eigen::Vector3d pushed = b.inv_mass * b.linear_factor.cwiseProduct(b.impulse);
+  return {.linear = b.velocity.linear + pushed,
+          .angular = b.velocity.angular + b.inv_inertia * b.angular_impulse};
+}
+
+inline double Along(const HalfRow& row, const Velocity& velocity) {
+  return row.linear.dot(velocity.linear) + row.angular.dot(velocity.angular);
+}
+
+/// Its part of J M^-1 J'.
+inline double Mobility(const StepInput& step, int body, const HalfRow& row) {
+  if (body == kWorld) return 0;
+  const Body& b = step.bodies[body];
+  return b.inv_mass * b.linear_factor.cwiseProduct(row.linear).dot(row.linear) +
+         row.angular.dot(b.inv_inertia * row.angular);
+}
+
+/// An implicit step of a spring and damper between bodies of J M^-1 J' = @p mobility.
+struct SoftRow {
+  double share;       ///< of the error that the step takes back
+  double compliance;  ///< [1/kg]
+};
+
+inline SoftRow Soften(double frequency, double damping_ratio, double mobility, double time_step) {
+  constexpr double kTwoPi = 6.283185307179586;
+  // where nothing moves, a row gives nothing
+  if (!(mobility > 0)) return {.share = 0, .compliance = 1};
+  const double omega = kTwoPi * frequency;
+  const double k = omega * omega / mobility, c = 2 * damping_ratio * omega / mobility;
+  const double stiff = c + time_step * k;
+  return {.share = time_step * k / stiff, .compliance = 1 / (time_step * stiff)};
+}
+
+inline void PutFloats(const Eigen::Vector3d& from, float* to) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+}
+
+}  // namespace cairn

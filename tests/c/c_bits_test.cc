@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// The interface of C gives the bits of that of C++, and the same reports.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "tests/c/c_problems.h"
+
+namespace cairn {
+namespace {
+
+using test::ManifoldScene;
+
+struct Solver2 {
+  explicit Solver2(const CairnSettings& settings) {
+    EXPECT_EQ(cairnCreateSolver(cairnLayout(), &settings, &solver), cairnOk);
+  }
+  ~Solver2() { cairnDestroySolver(solver); }
+  Solver2(const Solver2&) = delete;
+  Solver2& operator=(const Solver2&) = delete;
+
+  CairnSolver* solver = nullptr;
+};
+
+template <class Item>
+bool SameBytes(const std::vector<Item>& a, const std::vector<Item>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Item)) == 0;
+}
+
+/// Three frames, each from the impulses of the last.
+void ExpectSameBits(ManifoldScene scene, const Settings& settings,
+                    const CairnSettings& c_settings) {
+  test::CScene rounded = test::ToC(&scene);
+  ManifoldScene copy = scene;
+  test::CScene c = test::ToC(&copy);
+  ASSERT_TRUE(SameBytes(rounded.bodies, c.bodies));
+  Solver solver(settings);
+  Solver2 c_solver(c_settings);
+  std::vector<Velocity> velocities(scene.bodies.size());
+  for (int frame = 0; frame < 3; ++frame) {
+    const Report report = solver.Solve(scene.problem(), scene.impulses(), velocities);
+    CairnReport c_report;
+    ASSERT_TRUE(report.ok()) << Describe(report);
+    ASSERT_EQ(cairnSolve(c_solver.solver, &c.problem, &c.solution, &c_report), cairnOk);
+    EXPECT_TRUE(test::SameBits(scene.point_impulses, copy.point_impulses));
+    EXPECT_TRUE(SameBytes(scene.joint_impulses, copy.joint_impulses));
+    EXPECT_TRUE(SameBytes(scene.twist_impulses, copy.twist_impulses));
+    for (size_t i = 0; i < velocities.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(static_cast<float>(velocities[i].linear[k]), c.velocities[i].linear[k]);
+        EXPECT_EQ(static_cast<float>(velocities[i].angular[k]), c.velocities[i].angular[k]);
+      }
+    }
+    EXPECT_EQ(report.residual_max, c_report.residualMax);
+    EXPECT_EQ(report.sweeps, c_report.sweeps);
+    EXPECT_EQ(report.factorisations, c_report.factorisations);
+    EXPECT_EQ(report.work, c_report.work);
+    EXPECT_EQ(static_cast<int>(report.islands.size()), c_report.islandCount);
+  }
+}
+
+TEST(CInterface, GivesTheBitsOfCpp) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    ManifoldScene scene = test::RollingManifolds(30, 60, seed);
+    test::AddJoints(10, seed, &scene);
+    scene.motions.clear();  // this, and the law of hosts like Bullet, C does not know
+    scene.law.host = {};
+    ExpectSameBits(scene, {}, cairnDefaultSettings());
+  }
+}
+
+TEST(CInterface, PassesEverySettingOn) {
+  Settings settings{.method = Method::kPgs,
+                    .path = Path::kReference,
+                    .k_gs = 3,
+                    .k_sm = 1,
+                    .steps = false,
+                    .max_sweeps = 17,
+                    .tolerance = 0,
+                    .budget = Budget::Work(5000),
+                    .threads = 2};
+  settings.tuning.min_sweeps = 2;
+  CairnSettings c = cairnDefaultSettings();
+  c.method = cairnPgs;
+  c.path = cairnReference;
+  c.kGs = 3;
+  c.kSm = 1;
+  c.steps = false;
+  c.maxSweeps = 17;
+  c.tolerance = 0;
+  c.budgetKind = cairnWork;
+  c.budget = 5000;
+  c.threads = 2;
+  c.minSweeps = 2;
+  ExpectSameBits(test::ManifoldTower(12), settings, c);
+  settings.method = Method::kPgsSm;
+  settings.path = Path::kAuto;
+  c.method = cairnPgsSm;
+  c.path = cairnAuto;
+  ExpectSameBits(test::ManifoldTower(12), settings, c);
+}
+
+TEST(CInterface, HasTheDefaultsOfCpp) {
+  const Body body;
+  const CairnBody c = cairnDefaultBody();
+  EXPECT_EQ(c.invMass, body.inv_mass);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(c.linearFactor[k], body.linear_factor[k]);
+  EXPECT_EQ(c.id, body.id);
+  const JointRow row;
+  EXPECT_EQ(cairnDefaultJointRow().lo, row.lo);
+  EXPECT_EQ(cairnDefaultJointRow().hi, row.hi);
+  EXPECT_EQ(cairnDefaultContactPoint().friction, ContactPoint{}.friction);
+  EXPECT_EQ(cairnDefaultManifold().tangents, Manifold{}.tangents);
+  EXPECT_EQ(cairnDefaultJoint().damping, Joint{}.damping);
+  EXPECT_EQ(cairnDefaultSettings().tolerance, Settings{}.tolerance);
+}
+
+TEST(CInterface, HasTheVersionOfTheProject) {
+  const std::uint32_t version = cairnVersion();
+  const std::string text = std::to_string(version >> 16) + "." +
+                           std::to_string(version >> 8 & 255) + "." + std::to_string(version & 255);
+  EXPECT_EQ(text, CAIRN_PROJECT_VERSION);
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: MIT */
+/* The interface of C as a C program sees it. Argument: a folder to write to. */
+#include <cairn/cairn.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <threads.h>
+
+static int failures = 0;
+
+#define CHECK(condition)                                               \
+  do {                                                                 \
+    if (!(condition)) {                                                \
+      printf("%s:%d: not true: %s\n", __FILE__, __LINE__, #condition); \
+      ++failures;                                                      \
+    }                                                                  \
+  } while (0)
+
+/* A box of 2 kg that rests on the ground on four corners, and one that hangs from it. */
+typedef struct Scene {
+  CairnBody bodies[2];
+  CairnManifold manifold;
+  CairnContactPoint points[4];
+  CairnContactImpulse impulses[4];
+  CairnJoint joint;
+  CairnJointRow rows[3];
+  float rowImpulses[3];
+  CairnVelocity velocities[2];
+  CairnProblem problem;
+  CairnSolution solution;
+} Scene;
+
+static void MakeScene(Scene* scene) {
+  memset(scene, 0, sizeof *scene);
+  for (int i = 0; i < 2; ++i) {
+    scene->bodies[i] = cairnDefaultBody();
+    scene->bodies[i].invMass = 0.5f;
+    for (int k = 0; k < 3; ++k) scene->bodies[i].invInertia[4 * k] = 3;
+    scene->bodies[i].impulse[1] = -2 * 9.81f / 60;
+    scene->bodies[i].id = (uint64_t)i + 1;
+  }
+  scene->manifold = cairnDefaultManifold();
+  scene->manifold.bodyA = 0;
+  scene->manifold.points = 4;
+  for (int p = 0; p < 4; ++p) {
+    CairnContactPoint* point = &scene->points[p];
+    *point = cairnDefaultContactPoint();
+    point->armA[0] = p & 1 ? 0.5f : -0.5f;
+    point->armA[1] = -0.5f;
+    point->armA[2] = p & 2 ? 0.5f : -0.5f;
+    point->normal[1] = 1;
+    point->friction = 0.5f;
+  }
+  scene->joint = cairnDefaultJoint();
+  scene->joint.bodyA = 1;
+  scene->joint.bodyB = 0;
+  scene->joint.rows = 3;
+  scene->joint.opposite = true;
+  for (int k = 0; k < 3; ++k) {
+    scene->rows[k] = cairnDefaultJointRow();
+    scene->rows[k].linearA[k] = 1;
+    scene->rows[k].linearB[k] = -1;
+  }
+  scene->problem = cairnDefaultProblem();
+  scene->problem.bodies = scene->bodies;
+  scene->problem.bodyCount = 2;
+  scene->problem.manifolds = &scene->manifold;
+  scene->problem.manifoldCount = 1;
+  scene->problem.points = scene->points;
+  scene->problem.pointCount = 4;
+  scene->problem.joints = &scene->joint;
+  scene->problem.jointCount = 1;
+  scene->problem.jointRows = scene->rows;
+  scene->problem.jointRowCount = 3;
+  scene->solution.points = scene->impulses;
+  scene->solution.jointRows = scene->rowImpulses;
+  scene->solution.velocities = scene->velocities;
+}
+
+static CairnSolver* MakeSolver(void) {
+  const CairnSettings settings = cairnDefaultSettings();
+  CairnSolver* solver = NULL;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+  return solver;
+}
+
+static void SolvesBodiesContactsAndJoints(void) {
+  CairnSolver* solver = MakeSolver();
+  Scene scene;
+  MakeScene(&scene);
+  CairnReport report;
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, &report) == cairnOk);
+  /* by hand: the ground carries both, the joint what hangs */
+  float ground = 0;
+  for (int p = 0; p < 4; ++p) ground += scene.impulses[p].normal;
+  CHECK(fabsf(ground - 4 * 9.81f / 60) < 4e-3f);
+  CHECK(fabsf(scene.rowImpulses[1] - 2 * 9.81f / 60) < 4e-3f);
+  CHECK(fabsf(scene.velocities[1].linear[1]) < 2e-3f);
+  CHECK(report.status == cairnOk && report.stop == cairnConverged && report.path == cairnFast);
+  CHECK(report.badBody == -1 && report.residualMax <= 1e-3 && report.elapsed > 0);
+  CHECK(report.islandCount == 1);
+  CairnIsland island;
+  CHECK(cairnGetIsland(solver, 0, &island) == cairnOk);
+  CHECK(island.firstBody == 0 && island.bodies == 2 && island.rows == 4 * 3 + 3);
+  CHECK(cairnGetIsland(solver, 1, &island) == cairnWrongSize);
+  int32_t count = 0;
+  const int32_t* island_of = cairnIslandOf(solver, &count);
+  CHECK(count == 2 && island_of[0] == 0 && island_of[1] == 0);
+  char text[50];
+  CHECK(cairnDescribeReport(solver, text, sizeof text) == strlen("converged"));
+  CHECK(strcmp(text, "converged") == 0);
+  cairnDestroySolver(solver);
+}
+
+static void RefusesOtherVersionsAndLayouts(void) {
+  const CairnSettings settings = cairnDefaultSettings();
+  CairnSolver* solver = NULL;
+  CairnLayout layout = cairnLayout();
+  CHECK(layout.version == cairnVersion());
+  layout.joint += 4;
+  CHECK(cairnCreateSolver(layout, &settings, &solver) == cairnWrongVersion);
+  layout = cairnLayout();
+  layout.version += 1 << 8;
+  CHECK(cairnCreateSolver(layout, &settings, &solver) == cairnWrongVersion);
+  CHECK(solver == NULL);
+  CHECK(cairnCreateSolver(cairnLayout(), NULL, &solver) == cairnNullPointer);
+  layout = cairnLayout();
+  layout.version += 1; /* a patch changes no struct */
+  CHECK(cairnCreateSolver(layout, &settings, &solver) == cairnOk);
+  cairnDestroySolver(solver);
+  cairnDestroySolver(NULL);
+}
+
+static void NamesBadSettings(void) {
+  CairnSettings settings = cairnDefaultSettings();
+  char text[100];
+  CHECK(cairnDescribeSettings(&settings, text, sizeof text) == 0 && text[0] == '\0');
+  settings.threads = 0;
+  CairnSolver* solver = NULL;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnBadSettings);
+  cairnDescribeSettings(&settings, text, sizeof text);
+  CHECK(strcmp(text, "threads is 0, must be 1 to 1024") == 0);
+  CHECK(cairnDescribeSettings(&settings, text, 8) == strlen("threads is 0, must be 1 to 1024"));
+  CHECK(strcmp(text, "threads") == 0);
+  solver = MakeSolver();
+  CHECK(cairnSetSettings(solver, &settings) == cairnBadSettings);
+  settings.threads = 2;
+  CHECK(cairnSetSettings(solver, &settings) == cairnOk);
+  cairnDestroySolver(solver);
+}
+
+/* One change of a good scene is refused as said, and nothing is written. */
+static void Refused(CairnSolver* solver, Scene* scene, CairnStatus expected, const char* sentence) {
+  scene->velocities[0].linear[0] = 77;
+  CairnReport report;
+  CHECK(cairnSolve(solver, &scene->problem, &scene->solution, &report) == expected);
+  CHECK(report.status == expected);
+  CHECK(scene->velocities[0].linear[0] == 77);
+  char text[200];
+  cairnDescribeReport(solver, text, sizeof text);
+  if (strstr(text, sentence) == NULL) printf("said: %s\n", text);
+  CHECK(strstr(text, sentence) != NULL);
+}
+
+static void RefusesBadProblems(void) {
+  CairnSolver* solver = MakeSolver();
+  Scene scene;
+  MakeScene(&scene);
+  scene.bodies[1].velocity.linear[2] = NAN;
+  Refused(solver, &scene, cairnNotFinite, "body 1: a number is NaN");
+  MakeScene(&scene);
+  scene.problem.points = NULL;
+  Refused(solver, &scene, cairnNullPointer, "null");
+  MakeScene(&scene);
+  scene.solution.jointRows = NULL;
+  Refused(solver, &scene, cairnNullPointer, "null");
+  MakeScene(&scene);
+  scene.problem.jointCount = -1;
+  Refused(solver, &scene, cairnWrongSize, "do not fit");
+  MakeScene(&scene);
+  scene.manifold.firstPoint = 1;
+  Refused(solver, &scene, cairnWrongSize, "manifold 0");
+  MakeScene(&scene);
+  scene.joint.bodyA = 7;
+  Refused(solver, &scene, cairnNoSuchBody, "joint 0");
+  MakeScene(&scene);
+  scene.problem.bodyCount = 0;
+  Refused(solver, &scene, cairnEmptyProblem, "no bodies");
+  CHECK(cairnSolve(NULL, &scene.problem, &scene.solution, NULL) == cairnNullPointer);
+  MakeScene(&scene);
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  cairnDestroySolver(solver);
+}
+
+static void FindsWhatCannotBeMeant(void) {
+  Scene scene;
+  MakeScene(&scene);
+  char text[200];
+  CHECK(cairnValidateStrictly(&scene.problem, &scene.solution, text, sizeof text) == 0);
+  scene.points[2].normal[1] = 2;
+  cairnValidateStrictly(&scene.problem, &scene.solution, text, sizeof text);
+  CHECK(strcmp(text, "points[2].normal is (0, 2, 0), must be a unit vector\n") == 0);
+}
+
+/* A job system: one thread for each job, joined at the end. */
+typedef struct Job {
+  void (*work)(void*);
+  void* what;
+} Job;
+typedef struct Pool {
+  thrd_t threads[64];
+  Job jobs[64];
+  int count;
+} Pool;
+
+static int RunJob(void* job) {
+  ((Job*)job)->work(((Job*)job)->what);
+  return 0;
+}
+
+static void Submit(void (*work)(void*), void* what, void* context) {
+  Pool* pool = context;
+  if (pool->count == 64) return; /* a job that is never called is none that is waited for */
+  Job* job = &pool->jobs[pool->count];
+  job->work = work;
+  job->what = what;
+  thrd_create(&pool->threads[pool->count++], RunJob, job);
+}
+
+/* Piles of many bodies: enough rows for threads. */
+static void TakesThreadsOfItsHost(void) {
+  enum { kPiles = 500 };
+  static CairnBody bodies[kPiles];
+  static CairnManifold manifolds[kPiles];
+  static CairnContactPoint points[4 * kPiles];
+  static CairnContactImpulse impulses[2][4 * kPiles];
+  static CairnVelocity velocities[2][kPiles];
+  Scene scene;
+  MakeScene(&scene);
+  for (int i = 0; i < kPiles; ++i) {
+    bodies[i] = scene.bodies[0];
+    bodies[i].id = (uint64_t)i + 1;
+    bodies[i].velocity.linear[0] = 0.01f * (float)i;
+    manifolds[i] = scene.manifold;
+    manifolds[i].bodyA = i;
+    manifolds[i].firstPoint = 4 * i;
+    memcpy(&points[4 * i], scene.points, sizeof scene.points);
+  }
+  CairnProblem problem = cairnDefaultProblem();
+  problem.bodies = bodies;
+  problem.manifolds = manifolds;
+  problem.points = points;
+  problem.bodyCount = problem.manifoldCount = kPiles;
+  problem.pointCount = 4 * kPiles;
+  Pool pool = {.count = 0};
+  for (int run = 0; run < 2; ++run) {
+    CairnSettings settings = cairnDefaultSettings();
+    settings.threads = run == 0 ? 1 : 2;
+    settings.jobs.submit = Submit;
+    settings.jobs.context = &pool;
+    CairnSolver* solver = NULL;
+    CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+    const CairnSolution solution = {impulses[run], NULL, NULL, velocities[run]};
+    CHECK(cairnSolve(solver, &problem, &solution, NULL) == cairnOk);
+    cairnDestroySolver(solver);
+  }
+  CHECK(pool.count > 0);
+  for (int i = 0; i < pool.count; ++i) thrd_join(pool.threads[i], NULL);
+  CHECK(memcmp(velocities[0], velocities[1], sizeof velocities[0]) == 0);
+  CHECK(memcmp(impulses[0], impulses[1], sizeof impulses[0]) == 0);
+}
+
+static void RecordsAndSolvesAgain(const char* folder) {
+  char path[1000];
+  snprintf(path, sizeof path, "%s/c_test.cairn", folder);
+  remove(path);
+  CairnSolver* solver = MakeSolver();
+  Scene scene;
+  MakeScene(&scene);
+  CHECK(cairnRecordNext(solver, path) == cairnOk);
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  CHECK(cairnRecordedFiles(solver) == 1);
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  CHECK(cairnRecordedFiles(solver) == 1);
+
+  CairnRecording* recording = NULL;
+  CHECK(cairnLoadRecording("/no/such/file", &recording) == cairnBadFile);
+  CHECK(cairnLoadRecording(path, &recording) == cairnOk);
+  CHECK(cairnRecordingBodies(recording) == 2);
+  MakeScene(&scene);
+  cairnReset(solver);
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  for (int run = 0; run < 2; ++run) { /* a recording keeps its start */
+    CairnVelocity velocities[2];
+    CairnReport report;
+    cairnReset(solver);
+    CHECK(cairnSolveRecording(solver, recording, velocities, &report) == cairnOk);
+    CHECK(memcmp(velocities, scene.velocities, sizeof velocities) == 0);
+    CHECK(report.islandCount == 1);
+  }
+  cairnFreeRecording(recording);
+  cairnDestroySolver(solver);
+}
+
+static void EveryStatusHasASentence(void) {
+  for (int status = cairnOk; status <= cairnFailed; ++status) {
+    if (status == cairnOverflow + 1) status = cairnWrongVersion;
+    CHECK(strlen(cairnDescribe((CairnStatus)status)) > 5);
+    CHECK(strcmp(cairnDescribe((CairnStatus)status), "unknown status") != 0);
+  }
+  CHECK(strcmp(cairnDescribe((CairnStatus)50), "unknown status") == 0);
+}
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  SolvesBodiesContactsAndJoints();
+  RefusesOtherVersionsAndLayouts();
+  NamesBadSettings();
+  RefusesBadProblems();
+  FindsWhatCannotBeMeant();
+  TakesThreadsOfItsHost();
+  RecordsAndSolvesAgain(argv[1]);
+  EveryStatusHasASentence();
+  printf("%d failures\n", failures);
+  return failures > 0;
+}

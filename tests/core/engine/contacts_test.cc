@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Contacts from what an engine knows: the law of the bias, bounces, soft contacts, warm starts.
+#include "cairn/contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "tests/core/engine/small_world.h"
+
+namespace cairn {
+namespace {
+
+using test::SmallWorld;
+using test::Thing;
+using test::Vector3d;
+
+constexpr double kRadius = 0.1;
+
+/// The ball of that place, and the ground.
+Touch OnGround(const SmallWorld& world, int body) {
+  return {.body_a = body,
+          .centre_a = world.things[body].position,
+          .normal = {0, 1, 0},
+          .id = static_cast<std::uint64_t>(body + 1)};
+}
+
+TouchPoint Lowest(const SmallWorld& world, int body) {
+  const Vector3d& at = world.things[body].position;
+  return {.position = {at.x(), 0, at.z()}, .depth = kRadius - at.y()};
+}
+
+/// The highest that a ball gets after its first bounce, above where it lies [m].
+double BounceHeight(double restitution, double drop, double rate) {
+  SmallWorld world;
+  world.h = 1 / rate;
+  world.things.push_back({.position = {0, kRadius + drop, 0}, .inertia = 0.004});
+  bool bounced = false;
+  double highest = 0;
+  for (int frame = 0; frame < 3 * rate; ++frame) {
+    const double before = world.things[0].velocity.linear.y();
+    world.Step([&](SmallWorld* w) {
+      Touch touch = OnGround(*w, 0);
+      touch.restitution = restitution;
+      const std::array points{Lowest(*w, 0)};
+      w->contacts.Add(touch, points);
+    });
+    const double after = world.things[0].velocity.linear.y();
+    if (bounced && after <= 0) break;
+    bounced = bounced || (before < 0 && after > 0);
+    if (bounced) highest = std::max(highest, world.things[0].position.y() - kRadius);
+  }
+  return highest;
+}
+
+TEST(Contacts, BounceToTheSquareOfRestitutionTimesTheHeight) {
+  for (const double rate : {30.0, 60.0, 144.0}) {
+    for (const double drop : {2.0, 1.37, 5.0}) {
+      for (const double restitution : {0.5, 0.8, 1.0}) {
+        const double expected = restitution * restitution * drop;
+        // a step ends up to g h^2 / 8 below the top
+        const double seen = 9.81 / (rate * rate) / 8;
+        EXPECT_NEAR(BounceHeight(restitution, drop, rate), expected, 0.01 * expected + seen)
+            << restitution << " from " << drop << " m at " << rate << " Hz";
+      }
+    }
+  }
+  // none, but for depth that is taken back
+  EXPECT_LE(BounceHeight(0, 2, 60), 1e-3);
+}
+
+/// The bias of a point of that depth of a body at rest without gravity.
+double BiasOf(const ContactOptions& options, double depth, const Velocity& velocity = {}) {
+  const std::array bodies{Body{.inv_mass = 1, .velocity = velocity}};
+  Contacts contacts(options);
+  contacts.Begin({bodies, 0.01});
+  const std::array points{TouchPoint{.depth = depth}};
+  contacts.Add({.body_a = 0, .restitution = 0.5}, points);
+  return contacts.points()[0].bias;
+}
+
+TEST(Contacts, LetGapsCloseAndTakeDepthBack) {
+  const ContactOptions options{.slop = 0.01, .erp = 0.2, .max_push = 3};
+  EXPECT_FLOAT_EQ(BiasOf(options, -0.05), -5);  // 5 cm in 0.01 s
+  EXPECT_EQ(BiasOf(options, 0), 0);
+  EXPECT_EQ(BiasOf(options, 0.01), 0);
+  EXPECT_FLOAT_EQ(BiasOf(options, 0.06), 1);  // a fifth of 5 cm in 0.01 s
+  EXPECT_FLOAT_EQ(BiasOf(options, 0.5), 3);
+}
+
+TEST(Contacts, BounceFromTheSpeedThatTheyHaveWhereTheGapCloses) {
+  const ContactOptions options{.min_bounce = 1};
+  const auto falls = [](double speed) { return Velocity{.linear = {0, -speed, 0}}; };
+  EXPECT_FLOAT_EQ(BiasOf(options, 0, falls(2)), 1);       // half of 2 m/s
+  EXPECT_FLOAT_EQ(BiasOf(options, -0.01, falls(2)), 1);   // closes in this step
+  EXPECT_FLOAT_EQ(BiasOf(options, -0.03, falls(2)), -3);  // does not
+  EXPECT_EQ(BiasOf(options, 0, falls(0.9)), 0);           // too slow
+  EXPECT_EQ(BiasOf(options, 0, falls(-2)), 0);            // leaves
+}
+
+TEST(Contacts, SoftOnesGiveLikeASpring) {
+  for (const double frequency : {3.0, 8.0}) {
+    SmallWorld world;
+    world.contacts.options() = {.frequency = frequency, .damping_ratio = 1};
+    world.things.push_back({.mass = 3, .position = {0, kRadius, 0}});
+    for (int frame = 0; frame < 180; ++frame) {
+      world.Step([](SmallWorld* w) {
+        const std::array points{Lowest(*w, 0)};
+        w->contacts.Add(OnGround(*w, 0), points);
+      });
+    }
+    // k d = m g, k = m (2 pi f)^2
+    const double omega = 2 * 3.14159265 * frequency;
+    const double depth = kRadius - world.things[0].position.y();
+    EXPECT_NEAR(depth - world.contacts.options().slop, 9.81 / (omega * omega), 2e-5);
+  }
+}
+
+TEST(Contacts, StartFromWhatTheSameFeatureExerted) {
+  const std::array bodies{Body{.inv_mass = 1}, Body{.inv_mass = 1}};
+  Contacts contacts;
+  const StepInput step{bodies, 0.01};
+  const auto point = [](std::uint32_t feature) { return TouchPoint{.feature = feature}; };
+  const Touch known{.body_a = 0, .id = 7}, nameless{.body_a = 1};
+  contacts.Begin(step);
+  contacts.Add(known, std::array{point(1), point(2)});
+  contacts.Add(nameless, std::array{point(1)});
+  for (size_t i = 0; i < 3; ++i) contacts.impulses()[i].normal = 1 + static_cast<float>(i);
+
+  contacts.Begin(step);
+  contacts.Add(nameless, std::array{point(1)});
+  contacts.Add(known, std::array{point(2), point(3), point(1)});
+  EXPECT_EQ(contacts.impulses()[0].normal, 0);
+  EXPECT_EQ(contacts.impulses()[1].normal, 2);
+  EXPECT_EQ(contacts.impulses()[2].normal, 0);
+  EXPECT_EQ(contacts.impulses()[3].normal, 1);
+}
+
+TEST(Contacts, LeaveOutWhatIsFarAndCutWhatIsMany) {
+  const std::array bodies{Body{.inv_mass = 1}};
+  Contacts contacts;
+  contacts.Begin({bodies, 0.01});
+  std::vector<TouchPoint> points(7);
+  points[3].depth = -0.2;
+  contacts.Add({.body_a = 0}, points);
+  ASSERT_EQ(contacts.manifolds().size(), 2u);
+  EXPECT_EQ(contacts.manifolds()[0].points, 4);
+  EXPECT_EQ(contacts.manifolds()[1].points, 2);
+  EXPECT_EQ(contacts.manifolds()[1].first_point, 4);
+  EXPECT_EQ(contacts.points().size(), 6u);
+
+  contacts.Begin({bodies, 0.01});
+  contacts.Add({.body_a = 0}, std::array{points[3]});
+  EXPECT_TRUE(contacts.manifolds().empty());
+}
+
+TEST(Contacts, CarryWhatStandsOnAPlatform) {
+  SmallWorld world;
+  world.things.push_back({.mass = 0, .velocity = {.linear = {0.5, 1, 0}}});
+  world.things.push_back({.position = {0, kRadius, 0}, .inertia = 1e6});
+  for (int frame = 0; frame < 60; ++frame) {
+    world.Step([](SmallWorld* w) {
+      const Vector3d lift = w->things[0].position, ball = w->things[1].position;
+      const std::array points{TouchPoint{.position = ball - kRadius * Vector3d::UnitY(),
+                                         .depth = lift.y() + kRadius - ball.y()}};
+      w->contacts.Add({.body_a = 1, .body_b = 0, .centre_a = ball, .centre_b = lift, .id = 1},
+                      points);
+    });
+  }
+  EXPECT_EQ(world.things[0].velocity.linear, Vector3d(0.5, 1, 0));
+  EXPECT_NEAR((world.things[1].velocity.linear - Vector3d(0.5, 1, 0)).norm(), 0, 1e-4);
+}
+
+TEST(Contacts, OfTwoBodiesThatCannotMoveDoNothing) {
+  SmallWorld world;
+  world.things.assign(2, {.mass = 0, .velocity = {.linear = {0, -1, 0}}});
+  world.things[1].velocity = {};
+  world.Step([](SmallWorld* w) {
+    w->contacts.Add({.body_a = 0, .body_b = 1}, std::array{TouchPoint{.depth = 0.1}});
+  });
+  EXPECT_EQ(world.things[0].velocity.linear.y(), -1);
+}
+
+}  // namespace
+}  // namespace cairn

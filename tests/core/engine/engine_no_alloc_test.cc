@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Helpers and the interface of C allocate nothing once they have seen as much.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "cairn/cairn.h"
+#include "cairn/joints.h"
+#include "cairn/solver.h"
+#include "tests/c/c_problems.h"
+#include "tests/core/support/watched_new.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::Vector3d;
+
+TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) {
+  constexpr int kBodies = 40;
+  std::vector<Body> bodies(kBodies);
+  for (int i = 0; i < kBodies; ++i) {
+    bodies[i].inv_mass = 1;
+    bodies[i].inv_inertia.setIdentity();
+    bodies[i].impulse = {0, -0.16, 0};
+    bodies[i].id = static_cast<std::uint64_t>(i + 1);
+  }
+  Contacts contacts;
+  Joints joints;
+  Solver solver(Settings{.steps = false});
+  std::vector<Velocity> velocities(kBodies);
+  Report report;
+  const auto step = [&](int frame) {
+    const StepInput input{.bodies = bodies};
+    contacts.Begin(input);
+    joints.Begin(input);
+    // the order changes from frame to frame, the number does not
+    for (int k = 0; k < kBodies; ++k) {
+      const int i = (k + frame) % kBodies;
+      const std::array points{TouchPoint{.feature = 1}, TouchPoint{.position = {1, 0, 0}}};
+      contacts.Add({.body_a = i, .centre_a = {0, 0.5, 0}, .id = bodies[i].id}, points);
+      if (k % 2 == 0) joints.Add(HingeJoint({.motor_most = 1}), {.body = i}, {}, bodies[i].id);
+    }
+    solver.Solve(ProblemOf(input, contacts, joints), StartOf(&contacts, &joints), velocities,
+                 &report);
+    ASSERT_TRUE(report.ok());
+  };
+  for (int frame = 0; frame < 2 * kBodies; ++frame) step(frame);
+  const long before = test::NewCalls();
+  for (int frame = 0; frame < 1000; ++frame) step(frame);
+  EXPECT_EQ(test::NewCalls() - before, 0);
+}
+
+TEST(EngineNoAlloc, TheInterfaceOfCDoesSo) {
+  test::ManifoldScene scene = test::ManifoldTower(20);
+  test::CScene c = test::ToC(&scene);
+  CairnSettings settings = cairnDefaultSettings();
+  settings.steps = false;
+  CairnSolver* solver = nullptr;
+  const long at_first = test::NewCalls();
+  ASSERT_EQ(cairnCreateSolver(cairnLayout(), &settings, &solver), cairnOk);
+  CairnReport report;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_EQ(cairnSolve(solver, &c.problem, &c.solution, &report), cairnOk);
+  }
+  const long before = test::NewCalls();
+  EXPECT_GT(before, at_first);  // calls inside the library are seen
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_EQ(cairnSolve(solver, &c.problem, &c.solution, &report), cairnOk);
+  }
+  EXPECT_EQ(test::NewCalls() - before, 0);
+  cairnDestroySolver(solver);
+}
+
+TEST(EngineNoAlloc, LackOfMemoryIsAStatusInC) {
+  test::ManifoldScene scene = test::ManifoldTower(20);
+  test::CScene c = test::ToC(&scene);
+  const CairnSettings settings = cairnDefaultSettings();
+  int failed = 0;
+  for (int calls = 0; calls < 40; ++calls) {
+    CairnSolver* solver = nullptr;
+    test::FailNewAfter(calls);
+    const CairnStatus made = cairnCreateSolver(cairnLayout(), &settings, &solver);
+    const CairnStatus solved =
+        made == cairnOk ? cairnSolve(solver, &c.problem, &c.solution, nullptr) : made;
+    test::FailNewAfter(-1);
+    EXPECT_TRUE(solved == cairnOk || solved == cairnOutOfMemory) << cairnDescribe(solved);
+    failed += solved == cairnOutOfMemory ? 1 : 0;
+    EXPECT_EQ(made == cairnOk, solver != nullptr);
+    if (solver == nullptr) continue;
+    EXPECT_EQ(cairnSolve(solver, &c.problem, &c.solution, nullptr), cairnOk);
+    cairnDestroySolver(solver);
+  }
+  EXPECT_GT(failed, 20);
+}
+
+}  // namespace
+}  // namespace cairn
