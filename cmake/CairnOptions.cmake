@@ -33,6 +33,9 @@ option(CAIRN_DART "Build examples/dart, Cairn as a solver of DART (needs libdart
 option(CAIRN_INSTALL "Generate the install target" ${PROJECT_IS_TOP_LEVEL})
 option(CAIRN_FUZZ "Build the fuzz targets (needs clang)" OFF)
 option(CAIRN_WERROR "Treat warnings as errors" OFF)
+# For builds from nothing that are not to be timed. ccache does not keep files compiled so, and an include of others
+# that is missing is not seen.
+option(CAIRN_QUICK_BUILD "Precompile headers of others, and optimise tool and tests less" OFF)
 set(CAIRN_PAGE AUTO CACHE STRING "Scripts in the page of cairn run --report: AUTO (with npm, if it is found) or OFF")
 set_property(CACHE CAIRN_PAGE PROPERTY STRINGS AUTO OFF)
 set(CAIRN_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")

@@ -18,6 +18,34 @@ function(cairn_strict target)
   endif()
 endfunction()
 
+# With CAIRN_QUICK_BUILD, headers of others are compiled once for all targets that use them:
+# cairn_headers(name HEADERS ... [LIBS ...] [DEFINITIONS ...] [OPTIONS ...] [PIC]) and cairn_use_headers(target name).
+# Options become those of the targets. Definitions must be, where headers look at them.
+function(cairn_headers name)
+  if(NOT CAIRN_QUICK_BUILD)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "PIC" "" "HEADERS;LIBS;DEFINITIONS;OPTIONS")
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
+  file(CONFIGURE OUTPUT ${source} CONTENT "// nothing but headers\n")
+  add_library(${name} OBJECT ${source})
+  cairn_strict(${name})
+  target_link_libraries(${name} PRIVATE ${arg_LIBS})
+  target_compile_definitions(${name} PRIVATE ${arg_DEFINITIONS})
+  target_compile_options(${name} PRIVATE ${arg_OPTIONS})
+  set_property(TARGET ${name} PROPERTY CAIRN_OPTIONS ${arg_OPTIONS})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ${arg_PIC})
+  target_precompile_headers(${name} PRIVATE ${arg_HEADERS})
+endfunction()
+
+function(cairn_use_headers target name)
+  if(CAIRN_QUICK_BUILD)
+    get_property(options TARGET ${name} PROPERTY CAIRN_OPTIONS)
+    target_compile_options(${target} PRIVATE ${options})
+    target_precompile_headers(${target} REUSE_FROM ${name})
+  endif()
+endfunction()
+
 # A library of the product: cairn_library(target alias sources...) makes <target>, cairn::<alias> and the
 # file libcairn or libcairn-<alias>.
 function(cairn_library target alias)

@@ -4,9 +4,11 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: bash tests/run.sh [--preset NAME] [CTEST OPTIONS...]
+usage: bash tests/run.sh [--preset NAME | --quick] [CTEST OPTIONS...]
 
   --preset NAME   release (default), dev, asan or tsan
+  --quick         a release in build/quick that takes less time to build from nothing (CAIRN_QUICK_BUILD)
+                  and in which warnings are errors; tool and tests are optimised less
   -h, --help      this text
 
 All else goes to ctest:  bash tests/run.sh -R solver --verbose
@@ -14,6 +16,8 @@ TEXT
 }
 
 preset=release
+folder=''
+options=()
 while [[ $# -gt 0 ]]; do
   case "$1" in
     -h | --help)
@@ -24,6 +28,11 @@ while [[ $# -gt 0 ]]; do
       preset="${2:?--preset needs a name}"
       shift 2
       ;;
+    --quick)
+      folder=build/quick
+      options=(-DCAIRN_QUICK_BUILD=ON -DCAIRN_WERROR=ON)
+      shift
+      ;;
     *) break ;;
   esac
 done
@@ -31,10 +40,11 @@ done
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 jobs="$(nproc)"
 
+folder="${folder:-build/$preset}"
 bash cmake/install-packages.sh build test
-echo "== Configuring build/$preset"
-cmake --preset "$preset" -DCAIRN_TESTS=ON
+echo "== Configuring $folder"
+cmake --preset "$preset" -B "$folder" -DCAIRN_TESTS=ON "${options[@]}"
 echo "== Building ($jobs jobs)"
-cmake --build --preset "$preset" -j "$jobs"
+cmake --build "$folder" -j "$jobs"
 echo "== Testing"
-ctest --preset "$preset" -j "$jobs" "$@"
+ctest --test-dir "$folder" --output-on-failure -j "$jobs" "$@"

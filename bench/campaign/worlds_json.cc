@@ -49,7 +49,7 @@ Json ToJson(const bench::Trial& trial, const std::string& name,
 Json ToJson(const bench::WorldResult& result, const bench::CampaignOptions& options) {
   Json solvers = Json::array();
   for (size_t i = 0; i < result.bullet.size(); ++i) {
-    solvers.push_back(ToJson(result.bullet[i], bench::Yardsticks()[i].name, {}));
+    solvers.push_back(ToJson(result.bullet[i], bench::BulletVariants()[i].name, {}));
   }
   for (size_t i = 0; i < result.trials.size(); ++i) {
     solvers.push_back(ToJson(result.trials[i], options.variants[i].name, result.findings[i]));

@@ -18,7 +18,7 @@ using bench::Trial;
 using bench::Variant;
 using bench::WorldResult;
 
-constexpr size_t kTen = 1;  // of Yardsticks()
+constexpr size_t kTen = 1;  // of BulletVariants()
 constexpr std::string_view kShort[bench::kOracles] = {"fly",    "audit",    "restless", "gap",
                                                       "penetr", "momentum", "bits"};
 
@@ -57,7 +57,7 @@ std::vector<std::string> TimeCells(std::span<const WorldResult> results, GetTria
 
 /// A line of a run of Bullet: of oracles only what it is asked for.
 std::vector<std::string> BulletRow(std::span<const WorldResult> results, size_t index) {
-  std::vector<std::string> row = {bench::Yardsticks()[index].name};
+  std::vector<std::string> row = {bench::BulletVariants()[index].name};
   row.resize(1 + bench::kOracles, "-");
   row[1 + size_t(Oracle::kFliesApart)] = Count(results, [&](const WorldResult& result) {
     return !(result.bullet[index].fastest <= Trial::kTooFast);
@@ -79,7 +79,7 @@ TextTable TotalTable(std::span<const WorldResult> results, std::span<const Varia
   for (const std::string_view oracle : kShort) table.columns.push_back({std::string(oracle), ""});
   table.columns.insert(table.columns.end(),
                        {{"asleep", ""}, {"after", "median s"}, {"CPU", "ms/world"}});
-  for (size_t i = 0; i < bench::Yardsticks().size(); ++i) {
+  for (size_t i = 0; i < bench::BulletVariants().size(); ++i) {
     table.rows.push_back(BulletRow(results, i));
   }
   for (size_t i = 0; i < variants.size(); ++i) {
@@ -187,7 +187,7 @@ std::string WorldReport(const WorldResult& result, const std::string& descriptio
                    {"steps", "+/-"}, {"audits", "bad"}, {"worst", "J"},     {"asleep", "s"},
                    {"CPU", "ms"}};
   for (size_t i = 0; i < result.bullet.size(); ++i) {
-    table.rows.push_back(ReportRow(bench::Yardsticks()[i].name, result.bullet[i]));
+    table.rows.push_back(ReportRow(bench::BulletVariants()[i].name, result.bullet[i]));
   }
   for (size_t i = 0; i < variants.size(); ++i) {
     table.rows.push_back(ReportRow(variants[i].name, result.trials[i]));

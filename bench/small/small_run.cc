@@ -71,6 +71,7 @@ class SmallRun {
       : options_(options), progress_(progress) {}
 
   SmallResult Run(const SceneChoice& scene) {
+    ++world_;
     SmallResult result;
     result.name = scene.info->name;
     result.size = scene.size;
@@ -111,13 +112,14 @@ class SmallRun {
   }
 
   void Show(const SceneChoice& scene, const char* what, int frame) {
-    progress_->Show(
-        fmt::format("{}, {}: frame {} of {}", scene.info->name, what, frame, options_.frames));
+    progress_->Show(fmt::format("{} ({} of {}), {}: frame {} of {}", scene.info->name, world_,
+                                options_.worlds.size(), what, frame, options_.frames));
   }
 
   const SmallOptions& options_;
   Progress* progress_;
   ColdCaches caches_;
+  int world_ = 0;  ///< Counted from 1.
 };
 
 }  // namespace

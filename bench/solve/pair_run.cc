@@ -23,14 +23,14 @@ PairRun::PairRun(const SolveOptions& options, const LcpSolverEntry& entry, Solve
   result_.label = entry.name;
 }
 
-void PairRun::Watch(const Problem& problem, const Yardstick& yardstick,
+void PairRun::Watch(const Problem& problem, const ErrorMeter& meter,
                     const std::function<void(const lcp::Iterate&)>& show) {
   // The clock of a budget is kept here: the solver's own would run on while we look.
   LcpOptions unlimited = options_.solver;
   unlimited.budget.reset();
   const auto solver = entry_.make(unlimited);
   const Start start = FindStart(problem, options_.start, solver_.get(), clock_);
-  Trace::Setup setup{problem.lcp, yardstick, clock_, {}, show};
+  Trace::Setup setup{problem.lcp, meter, clock_, {}, show};
   if (options_.solver.budget) setup.budget = start.time + Milliseconds(*options_.solver.budget);
   Trace trace(std::move(setup), options_.errors);
   trace.Begin(start.x, start.time);
@@ -60,10 +60,10 @@ void PairRun::Solve(problems::Source* source, const std::function<void(int)>& sh
   result_.times.push_back(time);
 }
 
-LcpSolverResult PairRun::Finish(const BoxedLcp& lcp, const Yardstick& yardstick) {
+LcpSolverResult PairRun::Finish(const BoxedLcp& lcp, const ErrorMeter& meter) {
   result_.time = Median(result_.times);
-  result_.error = yardstick.Error(lcp, result_.x);
-  result_.energy_error = yardstick.EnergyError(lcp, result_.x);
+  result_.error = meter.Error(lcp, result_.x);
+  result_.energy_error = meter.EnergyError(lcp, result_.x);
   return std::move(result_);
 }
 

@@ -19,7 +19,7 @@ class PairRun {
 
   /// Takes the history of a single problem.
   /// @param show  is called with every iterate, for progress
-  void Watch(const problems::Problem& problem, const Yardstick& yardstick,
+  void Watch(const problems::Problem& problem, const ErrorMeter& meter,
              const std::function<void(const lcp::Iterate&)>& show);
 
   /// Solves from the first problem to the last. The time of each repetition is kept, and the rest
@@ -27,8 +27,8 @@ class PairRun {
   /// @param show  is called with the number of each problem before it is solved
   void Solve(problems::Source* source, const std::function<void(int)>& show);
 
-  /// @param lcp  what the yardstick is for
-  LcpSolverResult Finish(const BoxedLcp& lcp, const Yardstick& yardstick);
+  /// @param lcp  what the meter is for
+  LcpSolverResult Finish(const BoxedLcp& lcp, const ErrorMeter& meter);
 
  private:
   /// @return time [ms]

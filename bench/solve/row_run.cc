@@ -112,7 +112,7 @@ void RowRun::Keep(const RowOutcome& outcome, const RowError& error, double time)
                              .residual = error.residual});
 }
 
-LcpSolverResult RowRun::Solve(const RowProblem& problem, const RowYardstick& yardstick) {
+LcpSolverResult RowRun::Solve(const RowProblem& problem, const RowErrorMeter& meter) {
   result_ = {};
   result_.label = entry_.name;
   result_.residual.relative = result_.residual.max = result_.residual.energy = kNotMeasured;
@@ -123,12 +123,12 @@ LcpSolverResult RowRun::Solve(const RowProblem& problem, const RowYardstick& yar
   RowError error;
   // the first time, memory is cold
   if (!Try(problem, efforts.back(), &outcome, &result_.time)) return std::move(result_);
-  if (curve) Keep({}, yardstick.MeasureStart(), 0);
+  if (curve) Keep({}, meter.MeasureStart(), 0);
   for (const RowLimit& effort : efforts) {
     show_(fmt::format("{}, effort {} of {}", entry_.name, &effort - efforts.data() + 1,
                       efforts.size()));
     if (!Try(problem, effort, &outcome, &result_.time)) return std::move(result_);
-    error = yardstick.Measure(outcome);
+    error = meter.Measure(outcome);
     if (curve) Keep(outcome, error, result_.time);
     if (outcome.ended) break;
   }
@@ -160,7 +160,7 @@ void RowRun::Finish(const RowProblem& problem, const RowOutcome& last, const Row
   }
 }
 
-ProblemResult DescribeFrame(const RowProblem& problem, const RowYardstick& yardstick) {
+ProblemResult DescribeFrame(const RowProblem& problem, const RowErrorMeter& meter) {
   ProblemResult result;
   result.name = problem.name;
   result.source = problem.source;
@@ -176,9 +176,9 @@ ProblemResult DescribeFrame(const RowProblem& problem, const RowYardstick& yards
   facts.joint_rows = problem.first_contact;
   facts.points = static_cast<int>(problem.frame.points.size());
   facts.limited_sweeps = problem.limited_sweeps;
-  if (!yardstick.reference()) return result;
-  const bench::Converged& reference = *yardstick.reference();
-  result.truth = reference.reached ? Yardstick::Truth::kConverged : Yardstick::Truth::kBestFound;
+  if (!meter.reference()) return result;
+  const bench::Converged& reference = *meter.reference();
+  result.truth = reference.reached ? ErrorMeter::Truth::kConverged : ErrorMeter::Truth::kBestFound;
   result.truth_name = reference.reached ? "reference" : "best";
   result.best_residual = reference.residual_max;
   facts.spread = reference.spread.max;

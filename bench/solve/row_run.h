@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
+#include "rows/row_error_meter.h"
 #include "rows/row_solvers.h"
-#include "rows/row_yardstick.h"
 #include "solve/solve_options.h"
 #include "solve/solve_result.h"
 
@@ -19,7 +19,7 @@ class RowRun {
   RowRun(const SolveOptions& options, const RowSolverEntry& entry, SolverClock clock,
          std::function<void(const std::string&)> show);
 
-  LcpSolverResult Solve(const RowProblem& problem, const RowYardstick& yardstick);
+  LcpSolverResult Solve(const RowProblem& problem, const RowErrorMeter& meter);
 
  private:
   /// The median time of the repetitions [ms], and the outcome of the last.
@@ -41,6 +41,6 @@ class RowRun {
 std::vector<RowLimit> Efforts(const SolveOptions& options);
 
 /// Everything about a frame but its solvers.
-ProblemResult DescribeFrame(const RowProblem& problem, const RowYardstick& yardstick);
+ProblemResult DescribeFrame(const RowProblem& problem, const RowErrorMeter& meter);
 
 }  // namespace cairn::cli

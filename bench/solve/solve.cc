@@ -41,16 +41,16 @@ class Run {
     const Problem& problem = source->current();
     ProblemResult result = Describe(choice, *source);
     Enter(result.name);
-    Yardstick yardstick;
+    ErrorMeter meter;
     if (!options_.errors.empty() && result.steps == 1) {
       progress_.Show(fmt::format("{}: reference", where_));
-      yardstick = Yardstick(problem);
+      meter = ErrorMeter(problem);
     }
-    result.truth = yardstick.truth();
-    result.truth_name = yardstick.name();
-    result.best_residual = yardstick.best_residual();
+    result.truth = meter.truth();
+    result.truth_name = meter.name();
+    result.best_residual = meter.best_residual();
     for (const LcpSolverEntry* entry : options_.solvers) {
-      result.solvers.push_back(SolveWith(*entry, choice, source.get(), yardstick));
+      result.solvers.push_back(SolveWith(*entry, choice, source.get(), meter));
     }
     return result;
   }
@@ -61,15 +61,15 @@ class Run {
     if (options_.start == StartRule::kZero) from_zero = FromZero(recorded);
     const RowProblem& problem = from_zero ? *from_zero : recorded;
     progress_.Show(fmt::format("{}: reference", where_));
-    using Reference = RowYardstick::Reference;
-    const RowYardstick yardstick(problem,
-                                 options_.errors.empty() ? Reference::kNone : Reference::kFind);
-    ProblemResult result = DescribeFrame(problem, yardstick);
+    using Reference = RowErrorMeter::Reference;
+    const RowErrorMeter meter(problem,
+                              options_.errors.empty() ? Reference::kNone : Reference::kFind);
+    ProblemResult result = DescribeFrame(problem, meter);
     for (const RowSolverEntry* entry : options_.row_solvers) {
       RowRun run(options_, *entry, clock_, [this](const std::string& what) {
         progress_.Show(fmt::format("{}: {}", where_, what));
       });
-      result.solvers.push_back(run.Solve(problem, yardstick));
+      result.solvers.push_back(run.Solve(problem, meter));
     }
     return result;
   }
@@ -81,11 +81,11 @@ class Run {
   }
 
   LcpSolverResult SolveWith(const LcpSolverEntry& entry, const ProblemChoice& choice,
-                            problems::Source* first, const Yardstick& yardstick) {
+                            problems::Source* first, const ErrorMeter& meter) {
     PairRun run(options_, entry, clock_);
     const Problem& problem = first->current();
-    if (yardstick.truth() != Yardstick::Truth::kNone) {
-      run.Watch(problem, yardstick, [&](const lcp::Iterate& iterate) {
+    if (meter.truth() != ErrorMeter::Truth::kNone) {
+      run.Watch(problem, meter, [&](const lcp::Iterate& iterate) {
         progress_.Show(fmt::format("{}: {}, {} sweeps, {} factorisations", where_, entry.name,
                                    iterate.sweeps, iterate.factorisations));
       });
@@ -98,7 +98,7 @@ class Run {
                                    i + 1, options_.repeat, step + 1, first->steps()));
       });
     }
-    return run.Finish(problem.lcp, yardstick);
+    return run.Finish(problem.lcp, meter);
   }
 
   const SolveOptions& options_;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cairn/mixed_lcp.h"
+#include "solve/error_meter.h"
 #include "solve/solve_options.h"
-#include "solve/yardstick.h"
 #include "support/machine/run_context.h"
 #include "support/machine/stopwatch.h"
 #include "support/statistics.h"
@@ -19,7 +19,7 @@ namespace cairn::cli {
 struct HistoryPoint {
   double time = 0;  ///< Of the solver, coarser grids included [ms].
   int sweeps = 0, factorisations = 0;
-  double error = kNotMeasured, energy_error = kNotMeasured;  ///< See Yardstick.
+  double error = kNotMeasured, energy_error = kNotMeasured;  ///< See ErrorMeter.
   double residual = kNotMeasured;                            ///< LcpResidual::relative
 };
 
@@ -87,7 +87,7 @@ struct ProblemResult {
   Eigen::Index size = 0, nonzeros = 0, free_rows = 0;
   int steps = 1;                 ///< Problems of the march.
   std::optional<RowFacts> rows;  ///< Of a recorded frame; `size` counts its rows.
-  Yardstick::Truth truth = Yardstick::Truth::kNone;
+  ErrorMeter::Truth truth = ErrorMeter::Truth::kNone;
   std::string truth_name;
   double best_residual = kNotMeasured;  ///< Of the truth, if it was found here.
   std::vector<LcpSolverResult> solvers;

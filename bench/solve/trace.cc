@@ -47,14 +47,14 @@ void Trace::Record(const lcp::Iterate& iterate, double time, Keep keep) {
   HistoryPoint point{.time = time,
                      .sweeps = iterate.sweeps,
                      .factorisations = iterate.factorisations,
-                     .error = setup_.yardstick.Error(setup_.lcp, iterate.x)};
+                     .error = setup_.meter.Error(setup_.lcp, iterate.x)};
   const bool is_due = keep == Keep::kAlways || count_ >= next_;
   std::vector<LevelReached*> reached;
   for (LevelReached& level : levels_) {
     if (!level.first && point.error <= level.level) reached.push_back(&level);
   }
   if ((is_due || !reached.empty()) && !IsLast(point)) {
-    point.energy_error = setup_.yardstick.EnergyError(setup_.lcp, iterate.x);
+    point.energy_error = setup_.meter.EnergyError(setup_.lcp, iterate.x);
     point.residual = Measure(setup_.lcp, iterate.x).relative;
     history_.push_back(point);
     next_ = count_ + std::max(1LL, count_ / kThinning);

@@ -19,7 +19,7 @@ class Trace {
  public:
   struct Setup {
     const BoxedLcp& lcp;
-    const Yardstick& yardstick;
+    const ErrorMeter& meter;
     SolverClock clock;
     std::optional<double> budget;  ///< Time after which the solver is told to end [ms].
     /// Called with every iterate, to show progress. May be empty.

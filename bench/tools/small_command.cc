@@ -79,7 +79,7 @@ Command AddSmallCommand(CLI::App* run) {
       "small", "Small worlds, as most games have them, in one table: Cairn beside Bullet");
   small->footer(Notes());
   small->add_option("world", words->worlds, "Worlds to run (below); default: all")
-      ->type_name("WORLD...");
+      ->type_name("WORLD");
   const auto add = TextAdder(small);
   add("--frames", &words->frames, "Frames of 1/60 s; default 220", "N");
   add("--warmup", &words->warmup,

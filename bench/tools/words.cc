@@ -14,7 +14,7 @@ namespace cairn::cli {
 CLI::Option* AddScenes(CLI::App* app, const char* what, SceneWords* words) {
   return app
       ->add_option("scene", words->scenes, fmt::format("Scenes to {}; 'all' for every one", what))
-      ->type_name("SCENE...");
+      ->type_name("SCENE");
 }
 
 void AddSizeAndSeed(CLI::App* app, SceneWords* words) {

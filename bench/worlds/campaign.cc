@@ -52,7 +52,7 @@ WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed) {
   result.kind = &KindOf(seed.seed);
   TrialOptions trial = options.trial;
   trial.world = seed;
-  for (const Variant& variant : Yardsticks()) result.bullet.push_back(RunTrial(trial, variant));
+  for (const Variant& variant : BulletVariants()) result.bullet.push_back(RunTrial(trial, variant));
   for (const Variant& variant : options.variants) {
     result.trials.push_back(RunTrial(trial, variant));
     result.findings.push_back(Judge(result.trials.back(), result.bullet, options.lines));

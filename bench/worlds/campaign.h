@@ -12,7 +12,7 @@ namespace cairn::bench {
 struct WorldResult {
   std::uint64_t seed = 0;
   const Kind* kind = nullptr;
-  std::vector<Trial> bullet;                   ///< In the order of Yardsticks().
+  std::vector<Trial> bullet;                   ///< In the order of BulletVariants().
   std::vector<Trial> trials;                   ///< In the order of the variants asked for.
   std::vector<std::vector<Finding>> findings;  ///< Of each trial.
 

@@ -7,7 +7,7 @@
 namespace cairn::bench {
 namespace {
 
-enum { kOwn, kTen, kHundred };  // of Yardsticks()
+enum { kOwn, kTen, kHundred };  // of BulletVariants()
 
 /// The largest of a fact in Bullet's runs.
 double Largest(std::span<const Trial> bullet, double Trial::*fact) {

@@ -35,7 +35,7 @@ struct Finding {
   double value, line;  ///< In the oracle's unit: above the line is a failure.
 };
 
-/// What is wrong with a run, measured against those of Bullet, in the order of Yardsticks().
+/// What is wrong with a run, measured against those of Bullet, in the order of BulletVariants().
 std::vector<Finding> Judge(const Trial& trial, std::span<const Trial> bullet,
                            const Lines& lines = {});
 

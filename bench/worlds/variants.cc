@@ -37,7 +37,7 @@ std::span<const Variant> CairnVariants() {
   return variants;
 }
 
-std::span<const Variant> Yardsticks() {
+std::span<const Variant> BulletVariants() {
   static const Variant variants[] = {Bullet("bullet", "Bullet with the iterations of the world", 0),
                                      Bullet("bullet-10", "Bullet with 10 iterations", 10),
                                      Bullet("bullet-100", "Bullet with 100 iterations", 100)};

@@ -22,6 +22,6 @@ struct Variant {
 std::span<const Variant> CairnVariants();
 
 /// What they are measured against: Bullet with the iterations of the world, with 10, with 100.
-std::span<const Variant> Yardsticks();
+std::span<const Variant> BulletVariants();
 
 }  // namespace cairn::bench

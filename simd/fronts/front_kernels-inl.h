@@ -152,7 +152,7 @@ HWY_INLINE bool FactorColumns(const View<T>& front, int column, int from, int la
   const int first = RoundDown<T>(column);
   ForTiles<T>(first, PaddedRows<T>(column + kColumns),
               SquareTiles<T, kColumns>{front, column, from, square, kSquareStride, first});
-  T* const small = square + column - first;
+  T* const small = square + (column - first);
   if (!FactorSmall<T, kColumns>(small, kSquareStride, floors)) return false;
 
   ForTiles<T>(RoundDown<T>(column + kColumns), last,

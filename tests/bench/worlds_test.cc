@@ -131,11 +131,11 @@ TEST_P(EveryKind, IsTheSameWorldTwice) {
   TrialOptions options;
   options.world.seed = Seed(3);
   options.seconds = 1;
-  const Trial first = RunTrial(options, Yardsticks().front());
+  const Trial first = RunTrial(options, BulletVariants().front());
   const std::vector<char> other_heap(12345);
-  EXPECT_EQ(RunTrial(options, Yardsticks().front()).hash, first.hash);
+  EXPECT_EQ(RunTrial(options, BulletVariants().front()).hash, first.hash);
   options.world.seed = Seed(4);
-  EXPECT_NE(RunTrial(options, Yardsticks().front()).hash, first.hash);
+  EXPECT_NE(RunTrial(options, BulletVariants().front()).hash, first.hash);
 }
 
 TEST_P(EveryKind, IsSmallerOnASmallerScale) {
@@ -174,7 +174,7 @@ TEST(Rules, AreDrawnFromAllThatTheyMayBe) {
 }
 
 TEST(Oracles, FindNothingInBulletItself) {
-  const Variant bullet = Yardsticks()[1];
+  const Variant bullet = BulletVariants()[1];
   for (const char* kind : {"tower", "chain", "pile-boxes", "floating"}) {
     const WorldResult result = RunWorld(Options({}, {bullet}), {SeedOf(kind)});
     EXPECT_FALSE(result.failed()) << kind;
@@ -357,10 +357,10 @@ TEST(Worlds, HaveTheSameBitsWithMoreThreads) {
 }
 
 TEST(Worlds, SeeBitsThatDiffer) {
-  const CampaignOptions options = Options({15}, {Yardsticks()[1]});
+  const CampaignOptions options = Options({15}, {BulletVariants()[1]});
   std::vector<WorldResult> results = RunWorlds(options);
   CampaignOptions others = options;
-  others.variants = {Yardsticks()[2]};
+  others.variants = {BulletVariants()[2]};
   CompareBits(others, &results);
   EXPECT_TRUE(Oracles(results.front()).contains(Oracle::kBits));
 }

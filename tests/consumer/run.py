@@ -78,6 +78,10 @@ class Consumer:
         call(self.configure(f"-DCONSUMER_CAIRN_SOURCE={ROOT}", *ours))
         self.build_and_run()
 
+    def unoptimised(self):
+        program = os.path.join(self.args.build, "tests", "consumer_add_subdirectory", "same_bits")
+        call([program, "--gtest_filter=Determinism.HoldsFromMachineToMachine", "--gtest_brief=1"])
+
     def pkg_config(self):
         os.makedirs(self.folder, exist_ok=True)
         for example, package in (("embed.cc", "cairn"), ("tower.c", "cairn-c"), ("mixed_lcp.cc", "cairn-lcp"),

@@ -49,7 +49,7 @@ std::string Ended(const LcpSolverResult& solver) {
 
 bool AnyReference(const SolveResult& result) {
   return std::any_of(result.problems.begin(), result.problems.end(), [](const auto& problem) {
-    return problem.rows && problem.truth != Yardstick::Truth::kNone;
+    return problem.rows && problem.truth != ErrorMeter::Truth::kNone;
   });
 }
 
@@ -81,11 +81,11 @@ std::string BetterThanReference(const ProblemResult& problem) {
 }
 
 std::string ReferenceText(const ProblemResult& problem) {
-  if (problem.truth == Yardstick::Truth::kNone) return "errors: not measured";
+  if (problem.truth == ErrorMeter::Truth::kNone) return "errors: not measured";
   const std::string residual =
       fmt::format("residual {} m/s, another start ends {} m/s away",
                   FormatNumber(problem.best_residual), FormatNumber(problem.rows->spread));
-  if (problem.truth == Yardstick::Truth::kConverged) {
+  if (problem.truth == ErrorMeter::Truth::kConverged) {
     return fmt::format("errors: of velocities, against a converged reference ({})", residual);
   }
   // where the worst row is that close, no game sees the rest

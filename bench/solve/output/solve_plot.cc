@@ -29,7 +29,7 @@ int StyleOf(const SolveResult& result, const std::string& label) {
 }
 
 LinePlot PlotOf(const SolveResult& result, const ProblemResult& problem) {
-  const bool errors = problem.truth != Yardstick::Truth::kNone;
+  const bool errors = problem.truth != ErrorMeter::Truth::kNone;
   LinePlot plot;
   plot.title = problem.name;
   if (errors) plot.title += ", error of " + problem.truth_name;

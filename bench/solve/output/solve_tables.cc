@@ -46,7 +46,7 @@ std::string EffortText(const HistoryPoint& point) {
 
 bool AnyErrors(const SolveResult& result) {
   return std::any_of(result.problems.begin(), result.problems.end(), [](const auto& problem) {
-    return !problem.rows && problem.truth != Yardstick::Truth::kNone;
+    return !problem.rows && problem.truth != ErrorMeter::Truth::kNone;
   });
 }
 
@@ -64,15 +64,15 @@ std::string BestRemark(double residual) {
 
 std::string TruthText(const ProblemResult& problem) {
   switch (problem.truth) {
-    case Yardstick::Truth::kNone:
+    case ErrorMeter::Truth::kNone:
       return problem.steps > 1 ? "errors: those of the answers at the end of the march"
                                : "errors: not measured";
-    case Yardstick::Truth::kSolution:
+    case ErrorMeter::Truth::kSolution:
       return "errors: against the known solution x";
-    case Yardstick::Truth::kSlack:
+    case ErrorMeter::Truth::kSlack:
       return "errors: against the known w = M x + q, as x need not be unique";
-    case Yardstick::Truth::kConverged:
-    case Yardstick::Truth::kBestFound:
+    case ErrorMeter::Truth::kConverged:
+    case ErrorMeter::Truth::kBestFound:
       return fmt::format("errors: against the best x found here, by pgs-sm to 1e-12{}",
                          BestRemark(problem.best_residual));
   }
@@ -183,7 +183,7 @@ TextTable ErrorTable(const SolveResult& result) {
     table.columns.push_back({"sweeps", "+ factorised"});
   }
   for (const ProblemResult& problem : result.problems) {
-    if (problem.rows || problem.truth == Yardstick::Truth::kNone) continue;
+    if (problem.rows || problem.truth == ErrorMeter::Truth::kNone) continue;
     for (const LcpSolverResult& solver : problem.solvers) {
       std::vector<std::string> row = NameCells(result, problem, solver);
       for (const LevelReached& level : solver.levels) {

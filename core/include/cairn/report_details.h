@@ -27,7 +27,7 @@ std::string_view Describe(StopReason reason);
 enum class NoStep {
   kNotAsked,      ///< Not by Settings.
   kEnded,         ///< The iteration ended before another one was due.
-  kPaused,        ///< One was undone or too dear of late; see StepPolicy::kMeasured.
+  kPaused,        ///< One was undone or too dear of late; docs/solver.md, A cycle.
   kTooDear,       ///< It would not have fitted the budget with its sweeps, or cost more than it can
                   ///< gain.
   kSweepsFaster,  ///< Sweeps in its place are predicted to gain more.

@@ -62,6 +62,9 @@ class HelpTest(CairnTest):
         for words in ("--budget", "--iterations fit", "bullet-si@50", "Exit codes"):
             self.assertIn(words, text)
 
+    def test_help_names_scenes_once(self):
+        self.assertIn("  scene SCENE ... ", self.fine("run", "--help"))
+
     def test_version_is_a_version(self):
         self.assertRegex(self.fine("--version"), r"^\d+\.\d+\.\d+\n$")
 

@@ -16,6 +16,10 @@ FAMILY = {"incline", "seesaw", "door", "pendulum", "car", "growing-tower", "towe
 
 
 class SmallTest(CairnTest):
+    def test_progress_says_which_world_of_how_many(self):
+        result = cli_test.cairn("run", "small", "dominoes", "door", "--frames", "150", "--progress", "always")
+        self.assertRegex(result.stderr, r"(dominoes|door) \([12] of 2\), (hot|cold|errors): frame \d+ of 150")
+
     def test_help_names_every_world_and_the_exit_codes(self):
         text = self.fine("run", "small", "--help")
         for world in FAMILY:

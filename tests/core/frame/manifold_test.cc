@@ -174,7 +174,7 @@ TEST(Manifold, EndsWhereItsRowsEnd) {
     std::vector<double> start;
     const test::Scene rows = RowsOf(scene, &start);
 
-    // the yardstick knows rows alone
+    // the solution to compare with knows rows alone
     ManifoldScene solved = scene;
     solved.point_impulses = manifolds.points;
     solved.twist_impulses = manifolds.twists;

@@ -116,8 +116,9 @@ void Skew(BoxedLcp* p, int i, int j, double share) {
 TEST(ValidateLcp, RefusesAnAsymmetryAboveRounding) {
   for (const auto& [i, j] : {std::pair(2, 15), {15, 2}, {4, 5}, {5, 4}}) {
     for (const double sign : {1, -1}) {
-      ExpectRefusedAfter([&](BoxedLcp* p) { Skew(p, i, j, sign * 1.01e-8); }, Status::kNotSymmetric,
-                         std::min(i, j));
+      // clang 14 does not capture structured bindings
+      const auto skew = [sign, i = i, j = j](BoxedLcp* p) { Skew(p, i, j, sign * 1.01e-8); };
+      ExpectRefusedAfter(skew, Status::kNotSymmetric, std::min(i, j));
       BoxedLcp nearly = Good();
       Skew(&nearly, i, j, sign * 0.99e-8);
       EXPECT_TRUE(Validate(nearly).ok());

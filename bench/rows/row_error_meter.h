@@ -18,13 +18,13 @@ struct RowError {
 };
 
 /// Measures states of one frame, against a converged reference if there is one.
-class RowYardstick {
+class RowErrorMeter {
  public:
   enum class Reference {
     kNone,  ///< Residuals alone.
     kFind,  ///< Sweeps with subspace steps in double precision, which may take seconds.
   };
-  RowYardstick(const RowProblem& problem, Reference reference);
+  RowErrorMeter(const RowProblem& problem, Reference reference);
 
   /// NaN for velocities if there is no reference.
   RowError Measure(const RowOutcome& outcome) const;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "rows/row_yardstick.h"
+#include "rows/row_error_meter.h"
 
 #include "measure/row_velocities.h"
 #include "support/statistics.h"
 
 namespace cairn::cli {
 
-RowYardstick::RowYardstick(const RowProblem& problem, Reference reference)
+RowErrorMeter::RowErrorMeter(const RowProblem& problem, Reference reference)
     : problem_(problem), norm_(problem.rows.bodies) {
   if (reference == Reference::kNone) return;
   reference_ = bench::Converge({.bodies = problem.rows.bodies,
@@ -15,7 +15,7 @@ RowYardstick::RowYardstick(const RowProblem& problem, Reference reference)
                                norm_);
 }
 
-RowError RowYardstick::Measure(const RowOutcome& outcome) const {
+RowError RowErrorMeter::Measure(const RowOutcome& outcome) const {
   const Report report = cairn::Measure(problem_.rows.problem(), outcome.impulses);
   RowError error{.residual = report.ok() ? report.residual_max : kNotMeasured,
                  .residual_energy = report.ok() ? report.residual_energy : kNotMeasured,
@@ -29,7 +29,7 @@ RowError RowYardstick::Measure(const RowOutcome& outcome) const {
   return error;
 }
 
-RowError RowYardstick::MeasureStart() const {
+RowError RowErrorMeter::MeasureStart() const {
   RowOutcome start;
   start.impulses = problem_.rows.row_impulses;
   start.velocities = bench::FreeVelocities(problem_.rows.bodies);

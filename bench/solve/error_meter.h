@@ -8,7 +8,7 @@
 namespace cairn::cli {
 
 /// Measures how far an x is from the solution of a problem.
-class Yardstick {
+class ErrorMeter {
  public:
   /// What iterates are compared with.
   enum class Truth {
@@ -20,9 +20,9 @@ class Yardstick {
   };
 
   /// Compares with nothing.
-  Yardstick() = default;
+  ErrorMeter() = default;
   /// With what is known; where nothing is, finds it, which may take as long as the solvers do.
-  explicit Yardstick(const problems::Problem& problem);
+  explicit ErrorMeter(const problems::Problem& problem);
 
   Truth truth() const { return truth_; }
   /// LcpResidual::relative of what was found; NaN otherwise.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "solve/yardstick.h"
+#include "solve/error_meter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ Best FindBest(const problems::Problem& problem) {
 
 }  // namespace
 
-Yardstick::Yardstick(const problems::Problem& problem) {
+ErrorMeter::ErrorMeter(const problems::Problem& problem) {
   if (problem.solution.size() != 0) {
     truth_ = Truth::kSolution;
     target_ = problem.solution;
@@ -74,7 +74,7 @@ Yardstick::Yardstick(const problems::Problem& problem) {
   energy_scale_ = truth_ == Truth::kSlack ? 1 : OrOne(EnergyNorm(problem.lcp, target_));
 }
 
-const char* Yardstick::name() const {
+const char* ErrorMeter::name() const {
   switch (truth_) {
     case Truth::kNone:
       return "-";
@@ -90,13 +90,13 @@ const char* Yardstick::name() const {
   return "-";
 }
 
-double Yardstick::Error(const BoxedLcp& lcp, const Eigen::VectorXd& x) const {
+double ErrorMeter::Error(const BoxedLcp& lcp, const Eigen::VectorXd& x) const {
   if (truth_ == Truth::kNone) return kNotMeasured;
   if (truth_ == Truth::kSlack) return (lcp.M * x + lcp.q - target_).norm() / scale_;
   return (x - target_).norm() / scale_;
 }
 
-double Yardstick::EnergyError(const BoxedLcp& lcp, const Eigen::VectorXd& x) const {
+double ErrorMeter::EnergyError(const BoxedLcp& lcp, const Eigen::VectorXd& x) const {
   if (truth_ == Truth::kNone || truth_ == Truth::kSlack) return kNotMeasured;
   return EnergyNorm(lcp, x - target_) / energy_scale_;
 }
