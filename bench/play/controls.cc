@@ -32,7 +32,6 @@ void AddLane(const std::string& side, LaneControls* lane, std::vector<Field>* fi
                   {side + ".acceleration", &lane->acceleration}});
 }
 
-/// A text among those allowed.
 struct Setter {
   const Field& field;
   std::string_view text;
@@ -79,9 +78,10 @@ std::vector<Field> Fields(Controls* controls) {
                                {"contacts", &c.contacts},
                                {"joints", &c.joints},
                                {"shadows", &c.shadows},
+                               {"smooth", &c.smooth},
                                {"panels", &c.panels},
                                {"interpolate", &c.interpolate},
-                               {"colours", &c.colours, 0, 0, {"stone", "islands", "speed"}}};
+                               {"colours", &c.colours, 0, 0, {"stone", "islands"}}};
   AddLane("left", &c.lanes[0], &fields);
   AddLane("right", &c.lanes[1], &fields);
   return fields;

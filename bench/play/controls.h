@@ -35,7 +35,6 @@ struct SceneControls {
   std::string scene = "castle";
   int size = 0;  ///< 0: the default of the scene.
   int seed = 0;
-  friend bool operator==(const SceneControls&, const SceneControls&) = default;
 };
 
 /// Everything that a person can set.
@@ -50,8 +49,9 @@ struct Controls {
   double speed = 1;                        ///< 0.1 is slow motion.
   bool measure = true;                     ///< Residuals, which cost about a sweep.
   double ball_mass = 60, ball_speed = 25;  ///< [kg], [m/s]
-  bool contacts = false, joints = false, shadows = true, panels = true, interpolate = true;
-  std::string colours = "stone";  ///< "stone", "islands" or "speed".
+  bool contacts = false, joints = false, shadows = true, smooth = true, panels = true;
+  bool interpolate = true;        ///< Draws between steps.
+  std::string colours = "stone";  ///< "stone" or "islands".
 };
 
 /// One of the controls by name, "right.budget_ms" say.

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "play/player.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "scenes/facts.h"
 #include "support/duration.h"
-#include "support/names.h"
 
 namespace cairn::play {
 namespace {
@@ -24,13 +21,6 @@ constexpr btScalar kPinErp = btScalar(0.2);
 constexpr btScalar kBallDensity = 600;  // [kg/m^3]
 
 double OrZero(double value) { return std::isnan(value) ? 0 : value; }
-
-/// Bullet's solvers start friction and joints from nothing.
-bullet::Options StartLikeBullet() {
-  bullet::Options options;
-  options.warm_start_friction = options.warm_start_joints = false;
-  return options;
-}
 
 }  // namespace
 
@@ -107,7 +97,10 @@ void Player::Step(std::optional<std::chrono::nanoseconds> budget) {
   const auto begin = std::chrono::steady_clock::now();
   stage_->Step(frame_, substeps_ * entry_->parts);
   Take(std::chrono::steady_clock::now() - begin);
-  TakeSave();
+  if (writer_.asked()) {
+    const std::string fault = writer_.Take();
+    saved_ = fault.empty() ? "written " + saved_ : fault;
+  }
   ++frame_;
   failure_ = !contestant_->refusal().empty() ? contestant_->refusal() : watched_->failure();
 }
@@ -193,68 +186,16 @@ int Player::Pick(const btVector3& from, const btVector3& to, btVector3* at) cons
 }
 
 void Player::SaveNext(const std::string& path) {
-  saving_ = path;
-  saved_.clear();
-  if (cairn() != nullptr) return cairn()->RecordNext(path, frame_);
-  writer_ = std::make_unique<bullet::ConstraintSolver>(Settings{}, StartLikeBullet());
-  writer_->RecordNext(path, frame_);
-  watched_->ProbeNext([this](bench::Substep* substep, const btContactSolverInfo& info) {
-    substep->Restore();
-    substep->SolveWith(writer_.get(), info, nullptr);
-  });
+  saved_ = path;
+  writer_.Ask(path, frame_, cairn(), watched_.get());
 }
 
-void Player::TakeSave() {
-  if (saving_.empty()) return;
-  bullet::ConstraintSolver* const writer = cairn() != nullptr ? cairn() : writer_.get();
-  const RecordedFiles files = writer != nullptr ? writer->recorded() : RecordedFiles{};
-  saved_ = files.last_file == saving_ ? "written " + saving_
-           : files.failed > 0         ? "cannot write " + files.last_failure
-                                      : "nothing moves or touches: nothing written";
-  saving_.clear();
-  writer_.reset();
-}
-
-IslandFacts Player::Island(int index) {
-  IslandFacts facts;
-  facts.body = index;
-  const auto bodies = world().dynamic_bodies();
-  if (index < 0 || index >= static_cast<int>(bodies.size())) return facts;
-  const int tag = bodies[index]->getIslandTag();
-  const auto inside = [tag](const btCollisionObject& object) {
-    return !object.isStaticOrKinematicObject() && object.getIslandTag() == tag;
-  };
-  for (const btRigidBody* body : bodies) {
-    if (!inside(*body)) continue;
-    ++facts.bodies;
-    facts.mass += body->getMass();
-    facts.speed = std::max<double>(facts.speed, body->getLinearVelocity().length());
-  }
-  for (const btTypedConstraint* joint : world().joints()) {
-    if (!inside(joint->getRigidBodyA()) && !inside(joint->getRigidBodyB())) continue;
-    ++facts.joints;
-    facts.joint_gap = std::max(facts.joint_gap, OrZero(bench::JointGap(*joint)));
-  }
-  btDispatcher* const dispatcher = stage_->world().bullet()->getDispatcher();
-  for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(i);
-    if (!inside(*manifold.getBody0()) && !inside(*manifold.getBody1())) continue;
-    facts.contacts += manifold.getNumContacts();
-    for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      facts.penetration =
-          std::max<double>(facts.penetration, -manifold.getContactPoint(k).getDistance());
-    }
-  }
-  facts.asleep = !bodies[index]->isActive();
-  facts.report = ReportOf(*bodies[index]);
-  return facts;
-}
-
-std::optional<IslandReport> Player::ReportOf(const btRigidBody& body) {
+std::optional<IslandReport> Player::ReportOf(int body) {
   if (cairn() == nullptr || frame_ == 0) return {};
   const Report& report = cairn()->report();
   const auto bodies = cairn()->problem().bodies;
-  const auto id = static_cast<std::uint64_t>(body.getWorldArrayIndex() + 1);
+  const auto id =
+      static_cast<std::uint64_t>(world().dynamic_bodies()[body]->getWorldArrayIndex() + 1);
   for (size_t i = 0; i < bodies.size() && i < report.island_of.size(); ++i) {
     if (bodies[i].id == id && report.island_of[i] >= 0) return report.islands[report.island_of[i]];
   }

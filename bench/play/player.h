@@ -10,6 +10,7 @@
 #include "contestants/solver_registry.h"
 #include "contestants/watched_solver.h"
 #include "play/stage.h"
+#include "run/frame_writer.h"
 
 namespace cairn::play {
 
@@ -25,15 +26,6 @@ struct Sample {
   double joint_gap = 0;    ///< [m], 0 without joints.
   int sweeps = 0, steps_kept = 0, steps_undone = 0, guarded = 0;
   int contacts = 0, asleep = 0;  ///< Points, and bodies.
-};
-
-/// What is true of the bodies that hang together with one of them.
-struct IslandFacts {
-  int body = -1;  ///< In the order of World::dynamic_bodies().
-  int bodies = 0, joints = 0, contacts = 0;
-  double mass = 0, speed = 0, penetration = 0, joint_gap = 0;  ///< Largest but the mass.
-  bool asleep = false;
-  std::optional<IslandReport> report;  ///< Of Cairn.
 };
 
 /// One world with one solver, which may be changed while it runs.
@@ -54,7 +46,6 @@ class Player {
   void Grab(int body, const btVector3& at);
   void Move(const btVector3& to);
   void Release();
-  bool holds() const { return pin_ != nullptr; }
   /// The dynamic body and the point that a ray meets first; -1: none.
   int Pick(const btVector3& from, const btVector3& to, btVector3* at) const;
   /// Writes the problem of the next step to a file; see docs/recording.md.
@@ -66,7 +57,6 @@ class Player {
   const Stage& stage() const { return *stage_; }
   const cli::SolverEntry& solver() const { return *entry_; }
   bullet::ConstraintSolver* cairn() { return contestant_->cairn(); }
-  const cli::Effort& effort() const { return effort_; }
   int frame() const { return frame_; }
   /// Why it stopped; empty while it runs.
   const std::string& failure() const { return failure_; }
@@ -74,7 +64,8 @@ class Player {
   const std::vector<Sample>& history() const { return history_; }
   /// Mean time of the solver over the last half second [ms].
   double MeanSolverTime() const;
-  IslandFacts Island(int body);
+  /// What Cairn reported about the island of a dynamic body; none of Bullet's solvers.
+  std::optional<IslandReport> ReportOf(int body);
   /// Where a body is to be drawn, a share in [0, 1] of a step after the last but one.
   btTransform Pose(const btRigidBody& body, btScalar share) const;
 
@@ -84,8 +75,6 @@ class Player {
   void SetSolver(const std::string& name);
   void Observe();
   void Take(std::chrono::nanoseconds all);
-  void TakeSave();
-  std::optional<IslandReport> ReportOf(const btRigidBody& body);
 
   const cli::SolverEntry* entry_ = nullptr;
   std::unique_ptr<cli::Contestant> contestant_;
@@ -99,8 +88,8 @@ class Player {
   std::vector<Sample> history_;
   std::vector<btTransform> before_;  ///< By index in the world's array of objects.
   std::unique_ptr<btPoint2PointConstraint> pin_;
-  std::unique_ptr<bullet::ConstraintSolver> writer_;  ///< Of frames that Bullet's solvers made.
-  std::string saving_, saved_, failure_;
+  cli::FrameWriter writer_;
+  std::string saved_, failure_;
 };
 
 }  // namespace cairn::play

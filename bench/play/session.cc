@@ -24,10 +24,14 @@ void Session::Restart() {
   }
   players_ = std::move(players);
   built_ = controls_.scene;
+  ++generation_;
 }
 
 void Session::Apply() {
-  if (controls_.worlds < worlds()) players_.resize(controls_.worlds);
+  if (controls_.worlds < worlds()) {
+    players_.resize(controls_.worlds);
+    ++generation_;
+  }
   if (controls_.worlds > worlds()) {  // both begin together
     const SceneControls asked = std::exchange(controls_.scene, built_);
     Restart();
@@ -60,8 +64,7 @@ void Session::Shoot(const btVector3& from, const btVector3& direction) {
 }
 
 void Session::Grab(int body, const btVector3& at) {
-  const btVector3 seen = at;
-  for (const auto& player : players_) player->Grab(body, seen);
+  for (const auto& player : players_) player->Grab(body, at);
 }
 
 void Session::Move(const btVector3& to) {

@@ -13,11 +13,6 @@ namespace cairn::play {
 
 /// One world or two in step, with controls that may change at any time: what the window shows,
 /// without the window.
-///
-///     Session session(controls);
-///     session.controls().lanes[1].steps = false;
-///     session.Step();
-///
 /// Where nothing is dragged or shot and no clock decides, a world has the bits of `cairn run`.
 class Session {
  public:
@@ -47,6 +42,8 @@ class Session {
   int worlds() const { return static_cast<int>(players_.size()); }
   Player& player(int lane) { return *players_[lane]; }
   const Player& player(int lane) const { return *players_[lane]; }
+  /// Changes when worlds have gone or come.
+  int built() const { return generation_; }
   int frame() const { return players_.front()->frame(); }
   /// What a picture has left for the solver of each step: the budget of kRest.
   void SetRest(std::chrono::nanoseconds rest) { rest_ = rest; }
@@ -56,6 +53,7 @@ class Session {
 
   Controls controls_;
   SceneControls built_;
+  int generation_ = 0;
   std::vector<std::unique_ptr<Player>> players_;
   std::chrono::nanoseconds rest_ = std::chrono::milliseconds(8);
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "play/stage.h"
 
-#include <fmt/format.h>
-
 #include "run/imported_scene.h"
 #include "run/scene_choice.h"
 #include "worlds/random_world.h"
@@ -21,7 +19,6 @@ class SceneStage : public Stage {
     scene_->BeforeStep(&world_, frame);
     world_.Step(parts);
   }
-  std::string title() const override { return std::string(info_->description); }
 
  private:
   bench::World world_;
@@ -32,15 +29,13 @@ class SceneStage : public Stage {
 class RandomStage : public Stage {
  public:
   RandomStage(int seed, btConstraintSolver* solver)
-      : world_({.seed = static_cast<std::uint64_t>(seed)}, solver), title_(world_.Describe()) {}
+      : world_({.seed = static_cast<std::uint64_t>(seed)}, solver) {}
   bench::World& world() override { return world_.world(); }
   void Step(int, int) override { world_.Step(); }
   bool has_own_steps() const override { return true; }
-  std::string title() const override { return title_; }
 
  private:
   bench::RandomWorld world_;
-  std::string title_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "play/controls.h"
 #include "scenes/scene.h"
@@ -19,8 +18,6 @@ class Stage {
   virtual void Step(int frame, int parts) = 0;
   /// Whether length and parts of steps are its own.
   virtual bool has_own_steps() const { return false; }
-  /// One line for people.
-  virtual std::string title() const = 0;
 };
 
 /// @pre `solver` outlives the stage, or another one takes its place

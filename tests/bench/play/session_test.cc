@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cairn/detail/recording.h"
-#include "play/debug_draw.h"
-#include "play/game_loop.h"
+#include "examples/debug_draw.h"
+#include "examples/fixed_steps.h"
 #include "run/lane.h"
 #include "scenes/facts.h"
 #include "support/failure.h"
@@ -69,7 +69,7 @@ TEST(Session, HasTheBitsOfARandomWorld) {
 
 TEST(Session, DrawingPausingAndMeasuringChangeNoBit) {
   Session plain(Of("tower")), busy(Of("tower"));
-  struct NoDraw : DebugDraw {
+  struct NoDraw : examples::DebugDraw {
     void Line(const Point&, const Point&, unsigned) override { ++lines; }
     void Dot(const Point&, unsigned) override { ++dots; }
     int lines = 0, dots = 0;
@@ -80,8 +80,9 @@ TEST(Session, DrawingPausingAndMeasuringChangeNoBit) {
     busy.controls().lanes[1].threads = 1 + i % 2;
     plain.Step();
     busy.Step();
-    DrawContacts(busy.player(1).world(), &draw);
-    busy.player(1).Island(3);
+    const bench::World& world = busy.player(1).world();
+    examples::DrawContacts(*world.bullet(), world.time_step(), &draw);
+    bench::FactsOfIsland(world, 3);
   }
   EXPECT_EQ(StateHash(plain.player(1).world()), StateHash(busy.player(1).world()));
   EXPECT_GT(draw.dots, 40);
@@ -201,13 +202,14 @@ TEST(Session, ARayPicksTheBodyItMeetsAndItsIsland) {
                                           btVector3(0, btScalar(0.5), -20), &at);
   ASSERT_GE(body, 0);
   EXPECT_EQ(session.player(1).Pick(btVector3(50, 90, 20), btVector3(50, 90, -20), &at), -1);
-  const IslandFacts facts = session.player(1).Island(body);
+  const bench::IslandFacts facts = bench::FactsOfIsland(session.player(1).world(), body);
   EXPECT_EQ(facts.bodies, 30);
   EXPECT_GT(facts.contacts, 100);
   EXPECT_FALSE(facts.asleep);
-  ASSERT_TRUE(facts.report.has_value());
-  EXPECT_EQ(facts.report->bodies, 30);
-  EXPECT_FALSE(session.player(0).Island(body).report.has_value());  // Bullet says nothing
+  const std::optional<IslandReport> report = session.player(1).ReportOf(body);
+  ASSERT_TRUE(report.has_value());
+  EXPECT_EQ(report->bodies, 30);
+  EXPECT_FALSE(session.player(0).ReportOf(body).has_value());  // Bullet says nothing
 }
 
 TEST(Session, BodiesSleepWhenTheyMay) {
@@ -279,7 +281,7 @@ TEST(Controls, FieldsHaveNamesOfTheirOwnAndRefuseWhatTheyCannotBe) {
       EXPECT_THROW(Set(field, "-7e9x"), cli::Failure) << field.name;
     }
   }
-  EXPECT_EQ(names.size(), 32u);
+  EXPECT_EQ(names.size(), 33u);
 }
 
 TEST(Controls, PresetsAreWhatTheySay) {
@@ -298,24 +300,24 @@ TEST(Controls, PresetsAreWhatTheySay) {
 }
 
 // 144 Hz for a second at steps of 1/60 s: 60 steps, one at most a picture, shares in [0, 1).
-TEST(GameLoop, StepsAreFixedWhateverThePictures) {
-  GameLoop loop;
+TEST(FixedSteps, StepsAreFixedWhateverThePictures) {
+  examples::FixedSteps loop;
   int steps = 0;
   for (int i = 0; i < 144; ++i) {
-    const GameLoop::Plan plan = loop.Advance(1.0 / 144, {}, 1);
+    const examples::FixedSteps::Plan plan = loop.Advance(1.0 / 144, {}, 1);
     EXPECT_LE(plan.steps, 1);
     EXPECT_GE(plan.share, 0);
     EXPECT_LT(plan.share, 1);
     steps += plan.steps;
   }
   EXPECT_EQ(steps, 60);
-  EXPECT_EQ(loop.Advance(3, {}, 1).steps, GameLoop::kMostSteps);  // after a hitch
+  EXPECT_EQ(loop.Advance(3, {}, 1).steps, examples::FixedSteps::kMostSteps);  // after a hitch
   EXPECT_EQ(loop.Advance(1.0 / 60, {.speed = 0.5}, 1).steps, 0);
   EXPECT_EQ(loop.Advance(1.0 / 60, {.speed = 0.5}, 1).steps, 1);
 }
 
-TEST(GameLoop, TheBudgetIsWhatAPictureHasLeft) {
-  GameLoop loop;
+TEST(FixedSteps, TheBudgetIsWhatAPictureHasLeft) {
+  examples::FixedSteps loop;
   for (int i = 0; i < 200; ++i) loop.Learn(0.006);
   // nine tenths of 1/60 s - 6 ms, for two worlds
   const auto budget = loop.Advance(1.0 / 60, {}, 2).budget;

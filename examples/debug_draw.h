@@ -1,21 +1,38 @@
 // SPDX-License-Identifier: MIT
-#include "play/debug_draw.h"
+// What pushes where in a Bullet world, as lines and dots: to be copied into an engine. The window
+// of `cairn play` draws with it.
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
 
-namespace cairn::play {
-namespace {
+namespace cairn::examples {
 
-constexpr unsigned kContact = 0xffd75e, kImpulse = 0x4cd964, kFriction = 0x5ac8fa, kArm = 0xc7a6ff,
-                   kGap = 0xff453a;
-constexpr btScalar kLengthOfWeight = btScalar(0.3), kLongest = btScalar(1.5);  // [m]
+/// Implement two functions with whatever draws lines in your engine. Metres, world axes; colours
+/// are 0xRRGGBB.
+class DebugDraw {
+ public:
+  struct Point {
+    float x, y, z;
+  };
+  virtual ~DebugDraw() = default;
+  virtual void Line(const Point& from, const Point& to, unsigned colour) = 0;
+  virtual void Dot(const Point& at, unsigned colour) = 0;
+};
 
-DebugDraw::Point ToPoint(const btVector3& v) {
+namespace detail {
+
+inline constexpr unsigned kContact = 0xffd75e, kImpulse = 0x4cd964, kFriction = 0x5ac8fa,
+                          kArm = 0xc7a6ff, kGap = 0xff453a;
+inline constexpr btScalar kLengthOfWeight = 1, kLongest = 3;  // [m]
+
+inline DebugDraw::Point ToPoint(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
 /// The mass of the lighter one that moves [kg].
-btScalar Lighter(const btCollisionObject* a, const btCollisionObject* b) {
+inline btScalar Lighter(const btCollisionObject* a, const btCollisionObject* b) {
   btScalar mass = 0;
   for (const btCollisionObject* object : {a, b}) {
     const btRigidBody* const body = btRigidBody::upcast(object);
@@ -29,7 +46,7 @@ struct Anchors {
   btVector3 a, b;
 };
 
-Anchors AnchorsOf(const btTypedConstraint& joint) {
+inline Anchors AnchorsOf(const btTypedConstraint& joint) {
   const btTransform &a = joint.getRigidBodyA().getCenterOfMassTransform(),
                     &b = joint.getRigidBodyB().getCenterOfMassTransform();
   switch (joint.getConstraintType()) {
@@ -53,11 +70,16 @@ Anchors AnchorsOf(const btTypedConstraint& joint) {
   }
 }
 
-}  // namespace
+}  // namespace detail
 
-void DrawContacts(const bench::World& world, DebugDraw* draw) {
-  auto* const dispatcher = const_cast<btDispatcher*>(world.bullet()->getDispatcher());
-  const btScalar weight = btScalar(9.81) * world.time_step();
+/// Points of contact, and what pushes there: a line as long as the impulse would lift the mass of
+/// the lighter body in a step, times 1 m, at most 3 m; across it, friction likewise.
+inline void DrawContacts(const btDiscreteDynamicsWorld& world, btScalar time_step,
+                         DebugDraw* draw) {
+  using namespace detail;
+  auto* const dispatcher = const_cast<btDispatcher*>(world.getDispatcher());
+  const btScalar weight = world.getGravity().length() * time_step;
+  if (weight <= 0) return;  // nothing to compare impulses with
   for (int i = 0; i < dispatcher->getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(i);
     const btScalar mass = Lighter(manifold.getBody0(), manifold.getBody1());
@@ -81,8 +103,11 @@ void DrawContacts(const bench::World& world, DebugDraw* draw) {
   }
 }
 
-void DrawJoints(const bench::World& world, DebugDraw* draw) {
-  for (const btTypedConstraint* joint : world.joints()) {
+/// Joints: from each body to its anchor, and the gap between anchors in red.
+inline void DrawJoints(const btDiscreteDynamicsWorld& world, DebugDraw* draw) {
+  using namespace detail;
+  for (int i = 0; i < world.getNumConstraints(); ++i) {
+    const btTypedConstraint* const joint = world.getConstraint(i);
     const Anchors anchors = AnchorsOf(*joint);
     const btRigidBody &a = joint->getRigidBodyA(), &b = joint->getRigidBodyB();
     draw->Dot(ToPoint(anchors.a), kArm);
@@ -96,4 +121,4 @@ void DrawJoints(const bench::World& world, DebugDraw* draw) {
   }
 }
 
-}  // namespace cairn::play
+}  // namespace cairn::examples

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
+// A game loop without a window or a clock of its own: to be copied. `cairn play` runs by it.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 
-namespace cairn::play {
+namespace cairn::examples {
 
 /// When to step and what a step may cost: fixed steps, pictures in between, and for the solvers
 /// what a picture has left.
 ///
-///     const GameLoop::Plan plan = loop.Advance(passed, {.step = 1.0 / 60});
+///     const FixedSteps::Plan plan = loop.Advance(passed, {.step = 1.0 / 60});
 ///     for (int i = 0; i < plan.steps; ++i) session.Step();
 ///     Draw(plan.share);
 ///     loop.Learn(time_without_solvers);
-class GameLoop {
+class FixedSteps {
  public:
   struct Pace {
     double step = 1.0 / 60;     ///< [s]
@@ -54,4 +55,4 @@ class GameLoop {
   double unspent_ = 0, rest_ = 0.004;
 };
 
-}  // namespace cairn::play
+}  // namespace cairn::examples
