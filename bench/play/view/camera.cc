@@ -40,7 +40,8 @@ void Camera::Fit(const bench::World& world, float aspect) {
   target = box.center();
   scale_ = std::max(0.5f, 0.5f * box.diagonal().norm());
   const float tan_half = kTanHalfView * std::min(1.0f, aspect);
-  distance = 0.98f * scale_ / std::sin(std::atan(tan_half));
+  target.y() += 0.16f * scale_;  // room for the label
+  distance = 1.12f * scale_ / std::sin(std::atan(tan_half));
   yaw = 0.6f;
   pitch = 0.34f;
 }

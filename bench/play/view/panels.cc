@@ -43,14 +43,13 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(255, 255, 255, 12), 4);
-  double low = HUGE_VAL, high = -HUGE_VAL;
+  double low = 0, high = 0;
   for (int lane = 0; lane < session.worlds(); ++lane) {
     for (const Sample& sample : session.player(lane).history()) {
       low = std::min(low, plot.value(sample));
       high = std::max(high, plot.value(sample));
     }
   }
-  if (low >= 0) low = 0;
   if (!(high > low)) high = low + 1;
   float right = at.x + size.x - 6;
   for (int lane = session.worlds() - 1; lane >= 0; --lane) {
@@ -61,7 +60,9 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
       points.push_back({at.x + size.x * static_cast<float>(i) / Player::kMostHistory,
                         at.y + size.y - 3 - (size.y - 24) * static_cast<float>(share)});
     }
+    list.PushClipRect(at, {at.x + size.x, at.y + size.y});
     list.AddPolyline(points.data(), static_cast<int>(points.size()), kLaneColours[lane], 0, 1.6f);
+    list.PopClipRect();
     if (history.empty()) continue;
     const std::string text = fmt::format(fmt::runtime(plot.format), plot.value(history.back()));
     right -= ImGui::CalcTextSize(text.c_str()).x;
@@ -279,6 +280,7 @@ void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Are
   const float top = static_cast<float>(height - area.y - area.height);
   ImGui::SetNextWindowPos({static_cast<float>(area.x) + 10, top + 10});
   ImGui::SetNextWindowBgAlpha(0.72f);
+  ImGui::SetNextWindowSizeConstraints({236, 0}, {1000, 1000});
   ImGui::Begin(kSides[lane], nullptr,
                kFixedWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   ImGui::PushFont(large_);
@@ -287,12 +289,10 @@ void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Are
   ImGui::PopFont();
   if (!player.history().empty()) {
     const Sample& last = player.history().back();
-    ImGui::Text("solver %.2f ms, residual %.2g m/s, deepest %.1f mm", player.MeanSolverTime(),
-                last.residual, 1000 * last.penetration);
-    if (player.cairn() != nullptr) {
-      ImGui::Text("read %.2f + solve %.2f + write %.2f ms", last.build_ms, last.solve_ms,
-                  last.write_ms);
-    }
+    ImGui::Text("residual %.2g m/s, deepest %.1f mm", last.residual, 1000 * last.penetration);
+    const std::string parts =
+        fmt::format(" ({:.2f} + {:.2f} + {:.2f})", last.build_ms, last.solve_ms, last.write_ms);
+    ImGui::Text("solver %.2f ms%s", player.MeanSolverTime(), player.cairn() ? parts.c_str() : "");
   }
   if (!player.failure().empty()) ImGui::Text("stopped: %s", player.failure().c_str());
   if (facts.lane == lane) {

@@ -131,22 +131,12 @@ void Renderer::Draw(const Player& player, const Camera& camera, const Look& look
   const Matrix4f light = LightMatrix(kSun, camera.target, 1.6f * camera.scale());
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
   if (look.shadows) DrawShadows(light);
 
   samples_.Bind();
   glViewport(area.x, area.y, area.width, area.height);
   glScissor(area.x, area.y, area.width, area.height);
   glEnable(GL_SCISSOR_TEST);
-  glDepthMask(GL_FALSE);
-  sky_.Use();
-  SetMatrix(sky_.At("from_camera"), matrix.inverse());
-  glUniform3fv(sky_.At("horizon"), 1, kHorizon.data());
-  glUniform3fv(sky_.At("zenith"), 1, kZenith.data());
-  glBindVertexArray(line_array_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDepthMask(GL_TRUE);
-
   body_.Use();
   SetMatrix(body_.At("camera"), matrix);
   SetMatrix(body_.At("light"), light);
@@ -160,6 +150,13 @@ void Renderer::Draw(const Player& player, const Camera& camera, const Look& look
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, shadow_.texture());
   DrawBodies();
+  sky_.Use();
+  SetMatrix(sky_.At("from_camera"), matrix.inverse());
+  glUniform3fv(sky_.At("horizon"), 1, kHorizon.data());
+  glUniform3fv(sky_.At("zenith"), 1, kZenith.data());
+  glDisable(GL_CULL_FACE);
+  glBindVertexArray(line_array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
   if (look.contacts) DrawContacts(*player.world().bullet(), player.world().time_step(), this);
   if (look.joints) DrawJoints(*player.world().bullet(), this);
   DrawLines(matrix);
@@ -172,7 +169,7 @@ void Renderer::Collect(const Player& player, const Look& look) {
   const auto bodies = player.world().dynamic_bodies();
   for (size_t i = 0; i < bodies.size(); ++i) index[bodies[i]] = static_cast<int>(i);
   const btCollisionObjectArray& objects = player.world().bullet()->getCollisionObjectArray();
-  for (int i = 0; i < objects.size(); ++i) {
+  for (int i = objects.size() - 1; i >= 0; --i) {  // the ground, which is added first, last
     const btRigidBody* const body = btRigidBody::upcast(objects[i]);
     if (body == nullptr) continue;
     const auto found = index.find(body);
@@ -225,6 +222,7 @@ void Renderer::AddShape(const btCollisionShape& shape, const btTransform& pose,
 
 void Renderer::DrawBodies() {
   for (const auto& [mesh, instances] : instances_) {
+    (mesh == box_.get() ? glEnable : glDisable)(GL_CULL_FACE);
     glBindVertexArray(mesh->array);
     glBindBuffer(GL_ARRAY_BUFFER, mesh->buffers[1]);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instances.size() * sizeof(Instance)),
