@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <utility>
 
 #include "support/failure.h"
 #include "support/output_file.h"
@@ -75,15 +76,14 @@ void App::Run() {
   while (!done_ && glfwWindowShouldClose(window_) == GLFW_FALSE) {
     glfwPollEvents();
     ReadCommands();
-    if (done_) break;
-    Picture();
-    ++picture_;
-    if (options_.frames > 0 && picture_ >= options_.frames) break;
+    if (!done_) Picture();
+    done_ |= ++picture_ == options_.frames;
   }
   if (!options_.screenshot.empty()) WritePng(options_.screenshot, renderer_->picture());
 }
 
 void App::Picture() {
+  const double start = glfwGetTime(), passed = start - std::exchange(last_picture_, start);
   glfwGetFramebufferSize(window_, &options_.width, &options_.height);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
@@ -92,7 +92,7 @@ void App::Picture() {
   areas_ = Panels::Areas(session_.controls(), options_.width, options_.height);
   Hover();
   DragOrTurn();
-  const int steps = Steps();
+  const double solver_time = Steps(passed);
   try {
     Requests requests = panels_->Draw(&session_, facts_, options_.width, options_.height);
     AddKeys(&requests);
@@ -106,10 +106,10 @@ void App::Picture() {
   DrawWorlds();
   Show();
   const double end = glfwGetTime();
+  glfwSwapBuffers(window_);  // waits for the screen, which costs nothing
   facts_.draw_ms += 0.1 * (1000 * (end - begin) - facts_.draw_ms);
-  facts_.picture_ms += 0.1 * (1000 * (end - last_picture_) - facts_.picture_ms);
-  if (steps > 0) loop_.Learn(end - last_picture_ - solver_time_);
-  last_picture_ = end;
+  facts_.picture_ms += 0.1 * (1000 * passed - facts_.picture_ms);
+  loop_.Learn(end - start - solver_time);
 }
 
 void App::TakeInput() {
@@ -203,39 +203,35 @@ void App::Obey(const Requests& requests) {
   if (requests.save) facts_.message = session_.player(session_.worlds() - 1).saved();
 }
 
-int App::Steps() {
+double App::Steps(double passed) {
   const Controls& controls = session_.controls();
-  const bool by_itself = options_.frames > 0 || !options_.commands.empty();
+  const bool by_itself =
+      options_.frames > 0 || (!options_.commands.empty() && last_picture_ > live_);
   const double step = 1 / controls.rate;
-  examples::FixedSteps::Plan plan = loop_.Advance(
-      by_itself ? step : glfwGetTime() - last_picture_,
-      {.step = step, .speed = controls.paused ? 0 : controls.speed}, session_.worlds());
+  const examples::FixedSteps::Plan plan = loop_.Advance(
+      by_itself ? step : passed, {.step = step, .speed = controls.paused ? 0 : controls.speed},
+      session_.worlds());
   session_.SetRest(plan.budget);
   share_ = controls.interpolate && !by_itself && !controls.paused ? plan.share : 1;
-  solver_time_ = 0;
+  double solver_time = 0;
   for (int i = 0; i < plan.steps; ++i) {
     session_.Step();
     for (int lane = 0; lane < session_.worlds(); ++lane) {
-      solver_time_ += 1e-3 * session_.player(lane).history().back().solver_ms;
+      solver_time += 1e-3 * session_.player(lane).history().back().solver_ms;
     }
   }
-  return plan.steps;
+  return solver_time;
 }
 
 void App::DrawWorlds() {
   const Controls& controls = session_.controls();
-  if (built_ != session_.built()) renderer_->Forget();  // shapes are known by their address
-  built_ = session_.built();
+  if (std::exchange(built_, session_.built()) != session_.built()) renderer_->Forget();
   renderer_->Begin(options_.width, options_.height, controls.smooth ? 4 : 1);
   areas_ = Panels::Areas(controls, options_.width, options_.height);
   for (int lane = 0; lane < session_.worlds(); ++lane) {
     renderer_->Draw(session_.player(lane), camera_,
-                    {.colours = controls.colours,
-                     .shadows = controls.shadows,
-                     .contacts = controls.contacts,
-                     .joints = controls.joints,
-                     .share = btScalar(share_),
-                     .marked = facts_.body},
+                    {controls.colours, controls.shadows, controls.contacts, controls.joints,
+                     btScalar(share_), facts_.body},
                     areas_[lane]);
   }
 }
@@ -250,7 +246,7 @@ void App::Show() {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   glBlitFramebuffer(0, 0, picture.width(), picture.height(), 0, 0, picture.width(),
                     picture.height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  glfwSwapBuffers(window_);
+  glFinish();
 }
 
 }  // namespace cairn::play

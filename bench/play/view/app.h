@@ -45,7 +45,8 @@ class App {
   void DragOrTurn();
   void Hover();
   void Obey(const Requests& requests);
-  int Steps();
+  /// @return what solvers took [s]
+  double Steps(double passed);
   void DrawWorlds();
   void Show();
   void ReadCommands();
@@ -70,7 +71,8 @@ class App {
   std::deque<Mouse> mouse_;  ///< Of commands: one for each picture, the last one stays.
   int waiting_ = 0;          ///< Pictures until the next command.
   int picture_ = 0, built_ = 0;
-  double share_ = 1, last_picture_ = 0, solver_time_ = 0;
+  double share_ = 1, last_picture_ = 0;
+  double live_ = 0;            ///< Until then steps go by the clock, whatever the commands [s].
   std::optional<float> grip_;  ///< How far away a dragged body is [m].
   bool done_ = false;
 };

@@ -72,7 +72,7 @@ std::string App::State() {
 void App::ReadCommands() {
   if (options_.commands.empty()) return;
   while (!done_) {
-    if (mouse_.size() > 1 || waiting_ > 0) {
+    if (mouse_.size() > 1 || waiting_ > 0 || last_picture_ < live_) {
       waiting_ = std::max(0, waiting_ - 1);
       return;
     }
@@ -116,6 +116,9 @@ void App::Command(const std::string& line) {
           .step = verb == "step",
           .shoot = verb == "shoot",
           .fit = verb == "view"});
+  } else if (verb == "live") {
+    numbers(&live_);
+    live_ += last_picture_;
   } else if (verb == "camera") {
     numbers(&camera_.yaw, &camera_.pitch, &camera_.distance);
   } else if (verb == "click") {

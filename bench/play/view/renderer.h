@@ -42,7 +42,7 @@ class Renderer : private examples::DebugDraw {
   /// The picture, without several samples a pixel: panels go on top.
   const Target& Resolve();
   const Target& picture() const { return picture_; }
-  /// To be called when worlds are gone: shapes are known by their address.
+  /// When worlds are gone: shapes are known by their address.
   void Forget();
 
   int bodies_drawn() const { return bodies_drawn_; }

@@ -222,6 +222,17 @@ frames 2
         for before, after in zip(a, end):  # the tower has settled a little meanwhile
             self.assertAlmostEqual(after / before, 1, 2)
 
+    def test_by_the_clock_steps_keep_the_time(self):
+        self.script("set measure off\nset right.budget rest\nlive 2\nstate DIR/a.json\nset speed 0.1\nlive 2\n",
+                    "tower")
+        fast, slow = (self.state(name + ".json")["worlds"][1]["frame"] for name in ("a", "end"))
+        # 120 and 12; fewer where a picture takes more than four steps, and one more where it is late
+        self.assertGreater(fast, 20)
+        self.assertLess(fast, 150)
+        self.assertGreater(slow, fast)
+        self.assertLess(slow, fast + 30)
+        self.assertGreater(self.state("a.json")["worlds"][1]["budget_ms"], 0.05)
+
     def test_a_ball_comes_and_scenes_change(self):
         self.script("frames 1\nshoot\nframes 1\nstate DIR/ball.json\nset scene random\nset seed 12\nrestart\nview\n"
                     "frames 3\nstate DIR/random.json\nset worlds 1\nframes 1\n", "wall")
