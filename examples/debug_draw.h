@@ -25,7 +25,7 @@ namespace detail {
 
 inline constexpr unsigned kContact = 0xffd75e, kImpulse = 0x4cd964, kFriction = 0x5ac8fa,
                           kArm = 0xc7a6ff, kGap = 0xff453a;
-inline constexpr btScalar kLengthOfWeight = 1, kLongest = 3;  // [m]
+inline constexpr btScalar kLengthOfWeight = btScalar(0.5), kLongest = btScalar(1.5);  // [m]
 
 inline DebugDraw::Point ToPoint(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -73,7 +73,8 @@ inline Anchors AnchorsOf(const btTypedConstraint& joint) {
 }  // namespace detail
 
 /// Points of contact, and what pushes there: a line as long as the impulse would lift the mass of
-/// the lighter body in a step, times 1 m, at most 3 m; across it, friction likewise.
+/// the lighter body in a step, times 0.5 m, at most 1.5 m; across it, friction likewise. Away from
+/// what does not move.
 inline void DrawContacts(const btDiscreteDynamicsWorld& world, btScalar time_step,
                          DebugDraw* draw) {
   using namespace detail;
@@ -84,6 +85,8 @@ inline void DrawContacts(const btDiscreteDynamicsWorld& world, btScalar time_ste
     const btPersistentManifold& manifold = *dispatcher->getManifoldByIndexInternal(i);
     const btScalar mass = Lighter(manifold.getBody0(), manifold.getBody1());
     if (mass <= 0) continue;
+    // on body 0, or on body 1 where 0 does not move
+    const btScalar sign = manifold.getBody0()->isStaticOrKinematicObject() ? -1 : 1;
     const btScalar scale = kLengthOfWeight / (mass * weight);
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
@@ -91,13 +94,13 @@ inline void DrawContacts(const btDiscreteDynamicsWorld& world, btScalar time_ste
       draw->Dot(ToPoint(at), kContact);
       const btScalar length = std::min(kLongest, scale * point.m_appliedImpulse);
       if (length > 0) {
-        draw->Line(ToPoint(at), ToPoint(at + length * point.m_normalWorldOnB), kImpulse);
+        draw->Line(ToPoint(at), ToPoint(at + sign * length * point.m_normalWorldOnB), kImpulse);
       }
-      const btVector3 along = point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
-                              point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
-      const btScalar slide = std::min(kLongest, scale * along.length());
+      const btVector3 lateral = point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                                point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+      const btScalar slide = std::min(kLongest, scale * lateral.length());
       if (slide > btScalar(1e-3)) {
-        draw->Line(ToPoint(at), ToPoint(at + slide * along.normalized()), kFriction);
+        draw->Line(ToPoint(at), ToPoint(at + sign * slide * lateral.normalized()), kFriction);
       }
     }
   }

@@ -89,6 +89,24 @@ TEST(Session, DrawingPausingAndMeasuringChangeNoBit) {
   EXPECT_GT(draw.lines, 40);
 }
 
+// A box of 3 kg at rest: what pushes up at its corners is its weight, half a metre together.
+TEST(DebugDraw, ImpulsesAreAsLongAsTheWeightTheyCarry) {
+  btSequentialImpulseConstraintSolver solver;
+  bench::World world(&solver);
+  world.AddGround(10);
+  world.AddBox(btVector3(1, 1, 1), {.mass = 3, .pose = bench::At(0, 1, 0)});
+  for (int i = 0; i < 60; ++i) world.Step();
+  struct Sum : examples::DebugDraw {
+    void Line(const Point& from, const Point& to, unsigned) override { up += to.y - from.y; }
+    void Dot(const Point&, unsigned) override { ++dots; }
+    double up = 0;
+    int dots = 0;
+  } sum;
+  examples::DrawContacts(*world.bullet(), world.time_step(), &sum);
+  EXPECT_EQ(sum.dots, 4);
+  EXPECT_NEAR(sum.up, 0.5, 0.01);  // ten iterations end within that
+}
+
 TEST(Session, RestartBeginsAgain) {
   Session session(Of("wall"));
   const std::uint64_t start = StateHash(session.player(0).world());
