@@ -45,6 +45,7 @@ void Player::SetSolver(const std::string& name) {
     watched->Watch(stage_->world().bullet());
     stage_->world().bullet()->setConstraintSolver(watched.get());
   }
+  writer_ = {};  // it knows the solver that goes
   watched_ = std::move(watched);
   contestant_ = std::move(contestant);
 }

@@ -50,7 +50,7 @@ class Player {
   int Pick(const btVector3& from, const btVector3& to, btVector3* at) const;
   /// Writes the problem of the next step to a file; see docs/recording.md.
   void SaveNext(const std::string& path);
-  /// What became of it; empty before the step.
+  /// What became of it; before the step, its path.
   const std::string& saved() const { return saved_; }
 
   const bench::World& world() const { return stage_->world(); }

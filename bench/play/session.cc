@@ -47,7 +47,6 @@ std::optional<std::chrono::nanoseconds> Session::BudgetOf(int lane) const {
   if (controls.budget == kFixed) return Nanoseconds(controls.budget_ms);
   if (controls.budget == kRest) return rest_;
   if (controls.budget != kMatch || worlds() < 2) return {};
-  // nothing is known before the other one's first step
   const Player& other = *players_[1 - lane];
   if (other.history().empty()) return {};
   return std::max<std::chrono::nanoseconds>(kLeastMatch, Nanoseconds(other.MeanSolverTime()));
@@ -76,8 +75,8 @@ void Session::Release() {
 }
 
 void Session::Save(const std::string& path) {
-  std::string stem = path;
-  if (stem.ends_with(".cairn")) stem.resize(stem.size() - 6);
+  Apply();  // of the solvers that make the next step
+  const std::string stem = path.substr(0, path.size() - (path.ends_with(".cairn") ? 6 : 0));
   if (worlds() == 1) return players_[0]->SaveNext(stem + ".cairn");
   players_[0]->SaveNext(stem + "-left.cairn");
   players_[1]->SaveNext(stem + "-right.cairn");

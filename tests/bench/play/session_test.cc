@@ -253,6 +253,17 @@ TEST(Session, AFrameIsSavedForEachSolver) {
     EXPECT_EQ(recording.bodies.size(), 30u);
   }
   EXPECT_THAT(session.player(0).saved(), testing::StartsWith("written"));
+  session.controls().lanes = {LaneControls{}, LaneControls{.solver = "bullet-nncg"}};
+  session.Save(folder + "/other.cairn");
+  session.Step();
+  for (const int lane : {0, 1}) {
+    EXPECT_THAT(session.player(lane).saved(), testing::StartsWith("written")) << lane;
+  }
+  session.Save(folder + "/late.cairn");
+  session.controls().lanes[0].solver = "bullet-si";  // who was asked is gone before the step
+  session.Step();
+  EXPECT_FALSE(std::filesystem::exists(folder + "/late-left.cairn"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/late-right.cairn"));
   session.Save(folder + "/no/such/folder/frame.cairn");
   session.Step();
   EXPECT_THAT(session.player(1).saved(), testing::StartsWith("cannot write"));
