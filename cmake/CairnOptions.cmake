@@ -38,6 +38,8 @@ option(CAIRN_WERROR "Treat warnings as errors" OFF)
 option(CAIRN_QUICK_BUILD "Precompile headers of others, and optimise tool and tests less" OFF)
 set(CAIRN_PAGE AUTO CACHE STRING "Scripts in the page of cairn run --report: AUTO (with npm, if it is found) or OFF")
 set_property(CACHE CAIRN_PAGE PROPERTY STRINGS AUTO OFF)
+set(CAIRN_PLAY AUTO CACHE STRING "The window of cairn play: AUTO (if GLFW, Dear ImGui and OpenGL are found), ON or OFF")
+set_property(CACHE CAIRN_PLAY PROPERTY STRINGS AUTO ON OFF)
 set(CAIRN_SANITIZE "" CACHE STRING "Sanitizers to build with, as -fsanitize= takes them")
 
 # The adapter: CAIRN_BULLET_PRECISIONS are the precisions of Bullet to build it for.

@@ -79,6 +79,11 @@ void Lane::ProbeNext(bench::InstrumentedSolver::Probe probe) {
   probing_ = true;
 }
 
+void Lane::RecordNext(const std::string& path, int frame) {
+  writer_.Ask(path, frame, cairn(), &watched_);
+  if (cairn() == nullptr) probing_ = true;
+}
+
 void Lane::Prepare(Observing observing) {
   btContactSolverInfo info = defaults_;
   contestant_->Begin(effort_, &info);

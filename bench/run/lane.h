@@ -9,6 +9,7 @@
 #include "contestants/contestant.h"
 #include "contestants/watched_solver.h"
 #include "effort/iteration_fit.h"
+#include "run/frame_writer.h"
 #include "run/options.h"
 #include "run/result.h"
 #include "run/scene_choice.h"
@@ -26,6 +27,10 @@ class Lane {
   /// Hands the next substep to a probe, island by island: what is too large for a solver of dense
   /// matrices must not depend on how the world of another solver packs islands.
   void ProbeNext(bench::InstrumentedSolver::Probe probe);
+
+  /// Writes what the solver is given in the next frame to a file; see FrameWriter.
+  void RecordNext(const std::string& path, int frame);
+  std::string TakeRecording() { return writer_.Take(); }
 
   bool failed() const { return result_.failure.has_value(); }
   /// Why it failed; empty if it did not.
@@ -66,6 +71,7 @@ class Lane {
   int parts_;  ///< of a time step, see SolverEntry
   bool probing_ = false;
   Frame observed_;  ///< What observing found in this frame: residual, rows, islands.
+  FrameWriter writer_;
   std::optional<ReplayRecorder> replay_;
   std::optional<TimelineRecorder> timeline_;
   SolverResult result_;

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "cairn/bullet/constraint_solver.h"
 #include "run/lane.h"
 #include "support/failure.h"
 #include "support/progress.h"
@@ -39,7 +38,7 @@ class RecordedScene {
   void Step(int frame) {
     const bool wanted = options_.frames.Contains(frame);
     const std::string path = PathOf(options_, scene_, frame);
-    if (wanted) Ask(frame, path);
+    if (wanted) lane_.RecordNext(path, frame);
     lane_.Step(Lane::Observing::kOff);
     if (wanted) Check(frame, path);
     if (!lane_.failed()) return;
@@ -49,28 +48,11 @@ class RecordedScene {
   std::vector<RecordedFrame> TakeFrames() { return std::move(frames_); }
 
  private:
-  /// Bullet's solvers start friction and joints from nothing.
-  static bullet::Options StartLikeBullet() {
-    bullet::Options options;
-    options.warm_start_friction = options.warm_start_joints = false;
-    return options;
-  }
-
-  void Ask(int frame, const std::string& path) {
-    if (lane_.cairn() != nullptr) return lane_.cairn()->RecordNext(path, frame);
-    beside_.RecordNext(path, frame);
-    lane_.ProbeNext([this](bench::Substep* substep, const btContactSolverInfo& info) {
-      substep->Restore();
-      substep->SolveWith(&beside_, info, nullptr);
-    });
-  }
-
   void Check(int frame, const std::string& path) {
-    const RecordedFiles& files = (lane_.cairn() != nullptr ? lane_.cairn() : &beside_)->recorded();
-    if (files.failed > 0) throw Failure(kBadInput, "cannot write " + files.last_failure);
-    if (files.last_file != path) {
-      throw Failure(kBadInput, fmt::format("{}: nothing moves or touches in frame {}",
-                                           scene_.info->name, frame));
+    const std::string fault = lane_.TakeRecording();
+    if (fault.starts_with("cannot")) throw Failure(kBadInput, fault);
+    if (!fault.empty()) {
+      throw Failure(kBadInput, fmt::format("{}: {} in frame {}", scene_.info->name, fault, frame));
     }
     frames_.push_back(Look(path));
   }
@@ -78,7 +60,6 @@ class RecordedScene {
   const RecordOptions& options_;
   SceneChoice scene_;
   Lane lane_;
-  bullet::ConstraintSolver beside_{Settings{}, StartLikeBullet()};
   std::vector<RecordedFrame> frames_;
 };
 

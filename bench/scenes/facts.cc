@@ -158,6 +158,36 @@ double TotalEnergy(const World& world) {
   return energy;
 }
 
+IslandFacts FactsOfIsland(const World& world, int body) {
+  const btRigidBody& first = *world.dynamic_bodies()[body];
+  const auto inside = [&first](const btCollisionObject& object) {
+    return !object.isStaticOrKinematicObject() && object.getIslandTag() == first.getIslandTag();
+  };
+  IslandFacts facts;
+  facts.asleep = !first.isActive();
+  for (const btRigidBody* other : world.dynamic_bodies()) {
+    if (!inside(*other)) continue;
+    ++facts.bodies;
+    facts.mass += other->getMass();
+    facts.speed = std::max<double>(facts.speed, other->getLinearVelocity().length());
+  }
+  for (const btTypedConstraint* joint : world.joints()) {
+    if (!inside(joint->getRigidBodyA()) && !inside(joint->getRigidBodyB())) continue;
+    ++facts.joints;
+    const double gap = JointGap(*joint);
+    if (gap > facts.joint_gap) facts.joint_gap = gap;
+  }
+  ForEachManifold(world, [&](const btPersistentManifold& manifold) {
+    if (!inside(*manifold.getBody0()) && !inside(*manifold.getBody1())) return;
+    facts.contacts += manifold.getNumContacts();
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      facts.penetration =
+          std::max<double>(facts.penetration, -manifold.getContactPoint(k).getDistance());
+    }
+  });
+  return facts;
+}
+
 std::uint64_t StateHash(const World& world) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const btRigidBody* body : world.dynamic_bodies()) {

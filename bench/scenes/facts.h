@@ -38,6 +38,17 @@ double TotalMass(const World& world);
 /// Kinetic energy plus potential energy against the origin of the dynamic bodies [J].
 double TotalEnergy(const World& world);
 
+/// What is true of the bodies that hang together with one of them, as of the last step.
+struct IslandFacts {
+  int bodies = 0, joints = 0, contacts = 0;
+  double mass = 0;                                   ///< Of all [kg].
+  double speed = 0, penetration = 0, joint_gap = 0;  ///< The largest [m/s], [m], [m].
+  bool asleep = false;
+};
+
+/// @param body  its place in World::dynamic_bodies()
+IslandFacts FactsOfIsland(const World& world, int body);
+
 /// FNV-1a of the bytes of all poses and velocities of dynamic bodies: equal for equal bits.
 std::uint64_t StateHash(const World& world);
 

@@ -107,6 +107,13 @@ Command AddList(CLI::App* app) {
           }};
 }
 
+/// For the list of commands: what follows the word goes to cairn-play as it stands.
+Command AddPlay(CLI::App* app) {
+  CLI::App* const play = app->add_subcommand(
+      "play", "Worlds side by side in a window: drag, shoot, change solvers while they run");
+  return {play, [](const std::string&) { return kUsage; }};
+}
+
 /// `cairn` alone shows what there is, `cairn help run` is `cairn run --help`.
 void TakeHelp(Arguments* arguments) {
   const bool help = !arguments->empty() && arguments->front() == "help";
@@ -129,15 +136,17 @@ int Main(Arguments arguments) {
       "run.\n"
       "First tries: cairn run tower --budget 2ms, cairn solve journal-bearing");
   TakeHelp(&arguments);
-  const Command commands[] = {
-      AddDoctor(&app),        AddList(&app),         AddRunCommand(&app),   AddCompareCommand(&app),
-      AddRecordCommand(&app), AddSolveCommand(&app), AddWorldsCommand(&app)};
+  const Command commands[] = {AddDoctor(&app),        AddList(&app),
+                              AddRunCommand(&app),    AddCompareCommand(&app),
+                              AddRecordCommand(&app), AddSolveCommand(&app),
+                              AddWorldsCommand(&app), AddPlay(&app)};
   Arguments names;
   for (const Command& command : commands) {
     AllowExtras(command);
     names.push_back(command.app->get_name());
   }
   CompleteCommand(names, &arguments);
+  if (arguments.front() == "play") ContinueAsPlay({arguments.begin() + 1, arguments.end()});
   try {
     app.parse(Arguments(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::ParseError& error) {

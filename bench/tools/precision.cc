@@ -20,6 +20,25 @@ std::string ProgramFor(const std::string& precision) {
   return precision == "float64" ? "cairn-float64" : "cairn";
 }
 
+/// The path of a program beside this one, if it is there.
+std::optional<std::string> FindProgram(const std::string& name) {
+  std::error_code error;
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path sibling = own.parent_path() / name;
+  if (error || access(sibling.c_str(), X_OK) != 0) return {};
+  return sibling.string();
+}
+
+/// Does not come back.
+[[noreturn]] void Become(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<char*> words = {const_cast<char*>(program.c_str())};
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  execv(program.c_str(), words.data());
+  throw Failure(kBadInput, fmt::format("cannot start '{}': {}", program, std::strerror(errno)));
+}
+
 }  // namespace
 
 std::string OwnPrecision() {
@@ -31,11 +50,7 @@ std::string OwnPrecision() {
 }
 
 std::optional<std::string> FindSibling(const std::string& precision) {
-  std::error_code error;
-  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe", error);
-  const std::filesystem::path sibling = own.parent_path() / ProgramFor(precision);
-  if (error || access(sibling.c_str(), X_OK) != 0) return {};
-  return sibling.string();
+  return FindProgram(ProgramFor(precision));
 }
 
 void ContinueAs(const std::string& precision, const std::vector<std::string>& arguments) {
@@ -46,12 +61,21 @@ void ContinueAs(const std::string& precision, const std::vector<std::string>& ar
                               "{} libraries of Bullet are installed (Debian: libbullet-dev)",
                               ProgramFor(precision), precision));
   }
-  std::vector<char*> words = {const_cast<char*>(sibling->c_str())};
-  for (const std::string& argument : arguments)
-    words.push_back(const_cast<char*>(argument.c_str()));
-  words.push_back(nullptr);
-  execv(sibling->c_str(), words.data());
-  throw Failure(kBadInput, fmt::format("cannot start '{}': {}", *sibling, std::strerror(errno)));
+  Become(*sibling, arguments);
+}
+
+void ContinueAsPlay(const std::vector<std::string>& arguments) {
+  if (OwnPrecision() != "float") {
+    throw Failure(kUsage, "play has Bullet in floats alone: leave out --float64");
+  }
+  const std::optional<std::string> program = FindProgram("cairn-play");
+  if (!program) {
+    throw Failure(kBadInput,
+                  "there is no 'cairn-play' beside this program: it is built with Cairn "
+                  "if GLFW, Dear ImGui and OpenGL are installed; bash bench/play.sh "
+                  "installs and builds");
+  }
+  Become(*program, arguments);
 }
 
 std::string FirstLineOf(const std::string& program, const std::string& arguments) {

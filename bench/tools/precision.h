@@ -20,6 +20,10 @@ std::optional<std::string> FindSibling(const std::string& precision);
 [[noreturn]] void ContinueAs(const std::string& precision,
                              const std::vector<std::string>& arguments);
 
+/// Goes on as cairn-play, the window, a program of its own: this one loads no graphics. Does not
+/// come back. @throws Failure if there is no such program, or this one is not of floats
+[[noreturn]] void ContinueAsPlay(const std::vector<std::string>& arguments);
+
 /// The first line that a program writes to stdout; empty if it cannot be run.
 std::string FirstLineOf(const std::string& program, const std::string& arguments);
 

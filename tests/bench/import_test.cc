@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "play/session.h"
 #include "run/imported_scene.h"
 #include "scenes/scene.h"
 #include "support/failure.h"
@@ -68,6 +69,26 @@ TEST(Import, LeavesTheSolverSettingsOfTheScenes) {
   ImportScene(PathOf("tower.bullet"), 0).make()->Build(&world, {});
   EXPECT_EQ(world.solver_info().m_numIterations, 10);
   EXPECT_EQ(world.dynamic_bodies().size(), 3);
+}
+
+TEST(Import, PlaysBesideItself) {
+  btSequentialImpulseConstraintSolver solver;
+  bench::World saved(&solver);
+  const auto scene = bench::Make(*bench::FindScene("ragdolls"));
+  scene->Build(&saved, {.size = 2});
+  Save(&saved, PathOf("ragdolls.bullet"));
+
+  play::Controls controls;
+  controls.scene.scene = PathOf("ragdolls.bullet");
+  play::Session session(controls);
+  for (int i = 0; i < 30; ++i) session.Step();
+  session.Restart();
+  for (int i = 0; i < 30; ++i) session.Step();
+  for (const int lane : {0, 1}) {
+    EXPECT_EQ(session.player(lane).failure(), "");
+    EXPECT_EQ(session.player(lane).world().joints().size(), saved.joints().size());
+    EXPECT_GT(session.player(lane).history().back().contacts, 0);
+  }
 }
 
 TEST(Import, RefusesAWorldInWhichNothingMoves) {

@@ -54,7 +54,7 @@ class CairnTest(unittest.TestCase):
 class HelpTest(CairnTest):
     def test_help_names_every_command(self):
         text = self.fine("--help")
-        for command in ("doctor", "list", "run", "compare"):
+        for command in ("doctor", "list", "run", "compare", "play"):
             self.assertIn(command, text)
 
     def test_help_of_run_explains_budget_iterations_and_exit_codes(self):

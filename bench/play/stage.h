@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+
+#include "play/controls.h"
+#include "scenes/scene.h"
+
+namespace cairn::play {
+
+/// A world and what happens to it from outside, whatever it comes from.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+  virtual bench::World& world() = 0;
+  const bench::World& world() const { return const_cast<Stage*>(this)->world(); }
+  /// Frame number `frame` from the start, in so many parts.
+  virtual void Step(int frame, int parts) = 0;
+  /// Whether length and parts of steps are its own.
+  virtual bool has_own_steps() const { return false; }
+};
+
+/// @pre `solver` outlives the stage, or another one takes its place
+/// @throws cli::Failure for a scene, size or file that is not there
+std::unique_ptr<Stage> MakeStage(const SceneControls& scene, btConstraintSolver* solver);
+
+}  // namespace cairn::play

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+#include "play/view/panels.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "scenes/facts.h"
+
+namespace cairn::play {
+namespace {
+
+constexpr int kSide = 292, kStrip = 158;  // [pixels] of the panels on the left and below
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr ImU32 kLaneColours[] = {IM_COL32(255, 166, 77, 255), IM_COL32(90, 200, 250, 255)};
+constexpr const char* kSides[] = {"left", "right"};
+constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                          ImGuiWindowFlags_NoTitleBar |
+                                          ImGuiWindowFlags_NoSavedSettings;
+
+/// A curve over time of each world.
+struct Plot {
+  const char* title;
+  const char* format;
+  double (*value)(const Sample&);
+};
+constexpr Plot kPlots[] = {
+    {"solver", "{:.2f} ms", [](const Sample& s) { return s.solver_ms; }},
+    {"rest of the step", "{:.2f} ms", [](const Sample& s) { return s.world_ms; }},
+    {"residual", "{:.2g} m/s", [](const Sample& s) { return s.residual; }},
+    {"energy", "{:.4g} kJ", [](const Sample& s) { return s.energy / 1000; }},
+    {"penetration", "{:.2f} mm", [](const Sample& s) { return 1000 * s.penetration; }},
+    {"joint gap", "{:.2f} mm", [](const Sample& s) { return 1000 * s.joint_gap; }},
+    {"steps kept - undone", "{:.0f}",
+     [](const Sample& s) { return double(s.steps_kept - s.steps_undone); }},
+    {"islands guarded", "{:.0f}", [](const Sample& s) { return double(s.guarded); }}};
+
+void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(255, 255, 255, 12), 4);
+  double low = 0, high = 0;
+  for (int lane = 0; lane < session.worlds(); ++lane) {
+    for (const Sample& sample : session.player(lane).history()) {
+      low = std::min(low, plot.value(sample));
+      high = std::max(high, plot.value(sample));
+    }
+  }
+  if (!(high > low)) high = low + 1;
+  float right = at.x + size.x - 6;
+  for (int lane = session.worlds() - 1; lane >= 0; --lane) {
+    const auto& history = session.player(lane).history();
+    std::vector<ImVec2> points;
+    for (size_t i = 0; i < history.size(); ++i) {
+      const double share = (plot.value(history[i]) - low) / (high - low);
+      points.push_back({at.x + size.x * static_cast<float>(i) / Player::kMostHistory,
+                        at.y + size.y - 3 - (size.y - 24) * static_cast<float>(share)});
+    }
+    list.PushClipRect(at, {at.x + size.x, at.y + size.y});
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), kLaneColours[lane], 0, 1.6f);
+    list.PopClipRect();
+    if (history.empty()) continue;
+    const std::string text = fmt::format(fmt::runtime(plot.format), plot.value(history.back()));
+    right -= ImGui::CalcTextSize(text.c_str()).x;
+    list.AddText({right, at.y + 3}, kLaneColours[lane], text.c_str());
+    right -= 8;
+  }
+  list.AddText({at.x + 6, at.y + 3}, IM_COL32(200, 204, 210, 255), plot.title);
+  ImGui::Dummy(size);
+}
+
+std::string TitleOf(Player& player, const LaneControls& lane) {
+  if (lane.budget != kNoBudget && player.cairn() != nullptr) {
+    if (lane.budget == kFixed) return fmt::format("{}, {:.3g} ms", lane.solver, lane.budget_ms);
+    return lane.solver + (lane.budget == kMatch ? ", in the other's time" : ", what is left");
+  }
+  return fmt::format("{}, {} iterations", lane.solver, lane.iterations);
+}
+
+/// The island of a body.
+std::string DescribeIsland(Player* player, int body) {
+  const bench::IslandFacts facts = bench::FactsOfIsland(player->world(), body);
+  const std::string text = fmt::format(
+      "body {}, island of {} bodies, {:.4g} kg{}\n{} contacts, {} joints\npenetration {:.2f} mm, "
+      "gap {:.2f} mm, speed {:.2g} m/s",
+      body, facts.bodies, facts.mass, facts.asleep ? ", asleep" : "", facts.contacts, facts.joints,
+      1000 * facts.penetration, 1000 * facts.joint_gap, facts.speed);
+  const std::optional<IslandReport> found = player->ReportOf(body);
+  if (!found) return text;
+  const IslandReport& report = *found;
+  return text + fmt::format(
+                    "\n{} rows, {} sweeps, residual {:.1e} from {:.1e} m/s\nsteps {} kept, "
+                    "{} undone; {}\nended: {}",
+                    report.rows, report.sweeps, report.residual.max, report.residual_before.max,
+                    report.steps_accepted, report.steps_restored, cairn::Describe(report.no_step),
+                    cairn::Describe(report.stop));
+}
+
+}  // namespace
+
+Panels::Panels() {
+  ImGui::GetIO().IniFilename = nullptr;
+  ImGui::StyleColorsDark();
+  ImGuiStyle& style = ImGui::GetStyle();
+  style.FrameRounding = style.GrabRounding = 4;
+  style.WindowRounding = style.WindowBorderSize = 0;
+  style.ItemSpacing = {6, 4};
+  style.Colors[ImGuiCol_WindowBg] = {0.09f, 0.10f, 0.12f, 1};
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  for (const float size : {13.0f, 20.0f}) {
+    const bool there = std::filesystem::exists(kFont);
+    large_ = there ? fonts.AddFontFromFileTTF(kFont, size) : fonts.AddFontDefault();
+  }
+}
+
+std::vector<Area> Panels::Areas(const Controls& controls, int width, int height) {
+  const int left = controls.panels ? kSide : 0, below = controls.panels ? kStrip : 0;
+  const int each = std::max(1, (width - left) / controls.worlds);
+  std::vector<Area> areas;
+  for (int i = 0; i < controls.worlds; ++i) {
+    areas.push_back({left + i * each + i, below, std::max(1, each - controls.worlds + 1),
+                     std::max(1, height - below)});
+  }
+  return areas;
+}
+
+void Panels::Mark(const std::string& name) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  // a box with a label is clicked in the box
+  widgets_[name] = {std::min((low.x + high.x) / 2, low.x + 10), (low.y + high.y) / 2};
+}
+
+bool Panels::Button(const char* title, const std::string& name, float width) {
+  const bool pressed = ImGui::Button(fmt::format("{}##{}", title, name).c_str(), {width, 0});
+  Mark(name);
+  return pressed;
+}
+
+void Panels::Control(const std::string& name, const char* label) {
+  const Field& field = fields_.at(name);
+  const std::string id = fmt::format("{}##{}", label, name);
+  const auto log = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
+  if (bool* const* on = std::get_if<bool*>(&field.value)) {
+    ImGui::Checkbox(id.c_str(), *on);
+  } else if (int* const* count = std::get_if<int*>(&field.value)) {
+    const int most = static_cast<int>(std::min(field.most, 1000.0));
+    ImGui::SliderInt(id.c_str(), *count, static_cast<int>(field.least), most, "%d",
+                     most > 20 ? log : 0);
+  } else if (double* const* number = std::get_if<double*>(&field.value)) {
+    ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, *number, &field.least, &field.most,
+                        "%.3g", log);
+  } else {
+    std::string* const word = std::get<std::string*>(field.value);
+    if (field.words.empty()) ImGui::InputText(id.c_str(), word);
+    if (!field.words.empty() && ImGui::BeginCombo(id.c_str(), word->c_str())) {
+      for (const std::string_view choice : field.words) {
+        if (ImGui::Selectable(std::string(choice).c_str(), *word == choice)) *word = choice;
+      }
+      ImGui::EndCombo();
+    }
+  }
+  Mark(name);
+}
+
+void Panels::DrawScene(Controls* controls) {
+  ImGui::SetNextItemWidth(150);
+  if (ImGui::BeginCombo("scene", controls->scene.scene.c_str(), ImGuiComboFlags_HeightLarge)) {
+    std::vector<std::string> names = {"random"};
+    for (const bench::SceneInfo& scene : bench::Scenes()) names.emplace_back(scene.name);
+    for (const std::string& name : names) {
+      if (!ImGui::Selectable(name.c_str(), controls->scene.scene == name)) continue;
+      controls->scene = {.scene = name, .size = 0, .seed = controls->scene.seed};
+      requests_.restart = requests_.fit = true;
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::PushItemWidth(150);
+  Control("scene", "or file *.bullet");
+  for (const auto& [label, value] :
+       {std::pair{"size (0: default)", &controls->scene.size}, {"seed", &controls->scene.seed}}) {
+    ImGui::InputInt(label, value);
+    *value = std::max(0, *value);
+  }
+  ImGui::PopItemWidth();
+}
+
+void Panels::DrawLane(int lane, Controls* controls) {
+  const std::string side = kSides[lane];
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLaneColours[lane]), "%s", side.c_str());
+  ImGui::PushItemWidth(-1);
+  for (const Preset& preset : Presets()) {
+    const std::string name = fmt::format("{}.preset.{}", side, preset.name);
+    if (Button(std::string(preset.title).c_str(), name, -1)) {
+      UsePreset(preset.name, lane, controls);
+    }
+  }
+  Control(side + ".solver", "");
+  ImGui::PopItemWidth();
+  ImGui::PushItemWidth(64);
+  Control(side + ".iterations", "iterations");
+  Control(side + ".budget", "budget");
+  Control(side + ".budget_ms", "ms");
+  Control(side + ".threads", "threads");
+  ImGui::PopItemWidth();
+  Control(side + ".steps", "steps");
+  Control(side + ".acceleration", "acceleration");
+}
+
+void Panels::DrawSidebar(Session* session, const Facts& facts, int height) {
+  Controls& controls = session->controls();
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({kSide, static_cast<float>(height)});
+  ImGui::Begin("controls", nullptr, kFixedWindow);
+  DrawScene(&controls);
+  const std::tuple<const char*, const char*, bool*> buttons[] = {
+      {"Restart", "restart", &requests_.restart},
+      {"Step", "step", &requests_.step},
+      {"Shoot", "shoot", &requests_.shoot},
+      {"Save", "save", &requests_.save},
+      {"View", "view", &requests_.fit}};
+  for (const auto& [title, name, request] : buttons) {
+    if (Button(title, name, 51)) *request = true;
+    ImGui::SameLine();
+  }
+  ImGui::NewLine();
+  controls.paused |= requests_.step;
+  ImGui::PushItemWidth(110);
+  for (const auto& [name, label] : {std::pair{"worlds", "worlds"},
+                                    {"rate", "steps a second"},
+                                    {"substeps", "substeps"},
+                                    {"speed", "speed of time"},
+                                    {"ball_mass", "ball, kg"},
+                                    {"ball_speed", "ball, m/s"}}) {
+    Control(name, label);
+  }
+  Control("colours", "colours");
+  ImGui::PopItemWidth();
+  const char* const checks[] = {"paused",  "sleep",  "measure",     "contacts", "joints",
+                                "shadows", "smooth", "interpolate", "panels"};
+  for (int i = 0; i < 9; ++i) {
+    if (i % 3 != 0) ImGui::SameLine(static_cast<float>(8 + 92 * (i % 3)));
+    Control(checks[i], checks[i]);
+  }
+  ImGui::Separator();
+  if (ImGui::BeginTable("lanes", 2)) {
+    for (int lane = 0; lane < controls.worlds; ++lane) {
+      ImGui::TableNextColumn();
+      DrawLane(lane, &controls);
+    }
+    ImGui::EndTable();
+  }
+  ImGui::Separator();
+  ImGui::Text("%.0f pictures a second, drawing %.1f ms", 1000 / std::max(0.01, facts.picture_ms),
+              facts.draw_ms);
+  ImGui::TextWrapped("%s", facts.message.c_str());
+  ImGui::End();
+}
+
+void Panels::DrawPlots(const Session& session, int width, int height) {
+  const float space = static_cast<float>(width - kSide);
+  ImGui::SetNextWindowPos({kSide, static_cast<float>(height - kStrip)});
+  ImGui::SetNextWindowSize({space, kStrip});
+  ImGui::Begin("plots", nullptr, kFixedWindow | ImGuiWindowFlags_NoScrollbar);
+  const ImVec2 size((space - 16 - 3 * 6) / 4, (kStrip - 16 - 6) / 2);
+  for (size_t i = 0; i < std::size(kPlots); ++i) {
+    if (i % 4 != 0) ImGui::SameLine();
+    DrawPlot(session, kPlots[i], size);
+  }
+  ImGui::End();
+}
+
+void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Area& area,
+                       int height) {
+  Player& player = session->player(lane);
+  const float top = static_cast<float>(height - area.y - area.height);
+  ImGui::SetNextWindowPos({static_cast<float>(area.x) + 10, top + 10});
+  ImGui::SetNextWindowBgAlpha(0.72f);
+  ImGui::SetNextWindowSizeConstraints({236, 0}, {1000, 1000});
+  ImGui::Begin(kSides[lane], nullptr,
+               kFixedWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  ImGui::PushFont(large_);
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLaneColours[lane]), "%s",
+                     TitleOf(player, session->controls().lanes[lane]).c_str());
+  ImGui::PopFont();
+  if (!player.history().empty()) {
+    const Sample& last = player.history().back();
+    ImGui::Text("residual %.2g m/s, deepest %.1f mm", last.residual, 1000 * last.penetration);
+    const std::string parts =
+        fmt::format(" ({:.2f} + {:.2f} + {:.2f})", last.build_ms, last.solve_ms, last.write_ms);
+    ImGui::Text("solver %.2f ms%s", player.MeanSolverTime(), player.cairn() ? parts.c_str() : "");
+  }
+  if (!player.failure().empty()) ImGui::Text("stopped: %s", player.failure().c_str());
+  if (facts.lane == lane) {
+    ImGui::Separator();
+    ImGui::TextUnformatted(DescribeIsland(&player, facts.body).c_str());
+  }
+  ImGui::End();
+}
+
+Requests Panels::Draw(Session* session, const Facts& facts, int width, int height) {
+  requests_ = {};
+  widgets_.clear();
+  fields_.clear();
+  for (Field& field : Fields(&session->controls())) fields_.emplace(field.name, field);
+  const std::vector<Area> areas = Areas(session->controls(), width, height);
+  for (int lane = 0; lane < std::min(session->worlds(), session->controls().worlds); ++lane) {
+    DrawLabel(session, lane, facts, areas[lane], height);
+  }
+  if (session->controls().panels) {
+    DrawPlots(*session, width, height);
+    DrawSidebar(session, facts, height);
+  }
+  return requests_;
+}
+
+}  // namespace cairn::play
