@@ -16,6 +16,7 @@ import numpy
 from scipy import stats
 
 LEVEL = 0.05
+FEW_PAIRS = 12
 # Key in the file -> name and unit in a table, and the factor to that unit.
 FIGURES = {"height_lost_m": ("height lost mm", 1e3), "joint_gap_m": ("joint gap mm", 1e3),
            "penetration_m": ("penetration mm", 1e3), "residual_m_s": ("residual m/s", 1),
@@ -59,9 +60,14 @@ def compare_paired(first, second):
     ranks = stats.rankdata(numpy.abs(difference))
     p = 1.0
     if ranks.size:
-        # exact where no two differences are equally large
-        method = "exact" if len(set(ranks)) == ranks.size else "approx"
-        p = float(stats.wilcoxon(numpy.sign(difference) * ranks, method=method).pvalue)
+        signed = numpy.sign(difference) * ranks
+        if len(set(ranks)) < ranks.size <= FEW_PAIRS:
+            # SciPy's exact distribution knows no ties: all ways to choose the signs
+            p = float(stats.permutation_test((signed,), numpy.sum, permutation_type="samples",
+                                             n_resamples=2 ** FEW_PAIRS).pvalue)
+        else:
+            method = "exact" if len(set(ranks)) == ranks.size else "approx"
+            p = float(stats.wilcoxon(signed, method=method).pvalue)
     return {"less": int((difference < 0).sum()), "more": int((difference > 0).sum()),
             "equal": int((~differ).sum()), "p": 1.0 if math.isnan(p) else p}
 

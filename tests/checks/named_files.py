@@ -15,7 +15,7 @@ BARE = re.compile(r"[a-z][a-z0-9_]*$")
 # Tables in which bare names are files.
 WITH_BARE_NAMES = ("docs/architecture.md", "docs/solver.md")
 # From where a path may start.
-ROOTS = ("", "core/src", "core", "core/include", "core/lcp/include", "bullet_adapter/include", "bench")
+ROOTS = ("", "core/src", "core", "core/include", "core/lcp/include", "core/c/include", "bullet_adapter/include", "bench")
 # What programs write.
 MADE = re.compile(r"(out|build|frames)/|.*\b(json|html|cairn|png)$")
 

@@ -70,6 +70,10 @@ class PairedTest(unittest.TestCase):
         self.assertLessEqual(p_of(52), 0.05)
         self.assertGreater(p_of(53), 0.05)
 
+    def test_few_pairs_that_differ_equally_are_counted_sign_by_sign(self):
+        self.assertEqual(compare([1, 1, 1], [0, 0, 0])["p"], 2 / 2 ** 3)
+        self.assertEqual(compare([1] * 12, [0] * 12)["p"], 2 / 2 ** 12)
+
     def test_failed_runs_are_worst_and_nan_is_left_out(self):
         test = compare([1, INFINITE, 3, NAN, INFINITE], [2, INFINITE, INFINITE, 1, 5])
         self.assertEqual((test["less"], test["more"], test["equal"]), (2, 1, 1))
