@@ -218,6 +218,22 @@ TEST(Recording, OfVersion1IsRead) {
   EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
 }
 
+TEST(Recording, WithSettingsOfFormerTimesIsReadAndWrittenAsWhatTookTheirPlace) {
+  constexpr std::uint64_t kReverse = 2, kSymmetric = 3, kOfMatrices = 4;
+  for (const std::uint64_t order : {kReverse, kSymmetric}) {
+    Bytes file = EncodeAll(RandomRecording(3));
+    PutNumber(kOfMatrices, DataOf(file, "SETT"), 4, &file);
+    PutNumber(order, DataOf(file, "SETT") + 4, 4, &file);
+    test::RepairChecksums(&file);
+    const Recording read = Decoded(file);
+    EXPECT_EQ(read.settings.method, Method::kPgsSm);
+    EXPECT_EQ(read.settings.path, Path::kReference);
+    const Bytes written = EncodeAll(read);
+    EXPECT_FALSE(written == file);
+    EXPECT_TRUE(EncodeAll(Decoded(written)) == written);
+  }
+}
+
 TEST(Recording, IsSolvedToTheSameBitsOnEveryInstructionSet) {
   for (int seed = 0; seed < 4; ++seed) {
     Recording recording = RandomRecording(seed);
