@@ -93,6 +93,7 @@ std::size_t MutateSection(Bytes* bytes, std::size_t most, std::minstd_rand* rand
   const std::size_t each = NumberAt(*bytes, entry + 4, 4);
   const std::size_t begin = std::min<std::size_t>(NumberAt(*bytes, entry + 8, 8), bytes->size());
   const std::uint64_t count = NumberAt(*bytes, entry + 16, 8);
+  if (begin < kHeader + sections * kEntry) return 0;  // it would take the table away
   if (each == 0 || each > bytes->size() || count > (bytes->size() - begin) / each) return 0;
 
   const std::size_t size = count * each;
