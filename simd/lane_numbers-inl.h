@@ -28,20 +28,28 @@ HWY_INLINE void Move(hn::CappedTag<float, most> d, V beta, V keep, float* now, f
   hn::Store(moved, d, last);
 }
 
-inline void MoveLines(const Way* ways, const std::int32_t* of_lane, int count,
-                      const Moving<Line>& numbers) {
-  const FlushDenormals flush;
-  const hn::CappedTag<float, kLanes> d;
+/// In registers of @p most lanes at most.
+template <int most>
+HWY_INLINE void MoveLanes(const Way* ways, const std::int32_t* of_lane, int lanes, int count,
+                          const Moving<Line>& numbers) {
+  const hn::CappedTag<float, most> d;
   const hn::RebindToSigned<decltype(d)> d_index;
-  for (int l = 0; l < kLanes; l += static_cast<int>(hn::MaxLanes(d))) {
+  for (int l = 0; l < lanes; l += static_cast<int>(hn::MaxLanes(d))) {
     const auto index = hn::ShiftLeft<1>(hn::LoadU(d_index, of_lane + l));
     const auto beta = hn::GatherIndex(d, &ways->beta, index);
     const auto keep = hn::GatherIndex(d, &ways->keep, index);
     for (int i = 0; i < count; ++i) {
-      Move<kLanes>(d, beta, keep, numbers.now[i].lane + l, numbers.last[i].lane + l,
-                   numbers.direction[i].lane + l);
+      Move<most>(d, beta, keep, numbers.now[i].lane + l, numbers.last[i].lane + l,
+                 numbers.direction[i].lane + l);
     }
   }
+}
+
+inline void MoveLines(const Way* ways, const std::int32_t* of_lane, int lanes, int count,
+                      const Moving<Line>& numbers) {
+  const FlushDenormals flush;
+  if (lanes <= 4) return MoveLanes<4>(ways, of_lane, lanes, count, numbers);
+  MoveLanes<kLanes>(ways, of_lane, lanes, count, numbers);
 }
 
 inline void MoveBodies(const Way* ways, const std::int32_t* of_body, int count,
@@ -98,25 +106,34 @@ inline void AddEnergies(const PairBlock* blocks, const BlockError* errors, int c
   for (int l = 0; l < kLanes; ++l) sums[l] = all[l];
 }
 
-inline void FindGains(const PairBlock& block, const Line* lines, const Line* x, LaneGains* gains) {
-  double gain[kLanes] = {}, square[kLanes] = {};
+/// Of the first @p lanes lanes.
+template <int lanes>
+HWY_INLINE void FindGainsOf(const PairBlock& block, const Line* lines, const Line* x,
+                            LaneGains* gains) {
+  double gain[lanes] = {}, square[lanes] = {};
   const Line* row = lines + PairLines(block.form);
   for (int i = 0; i < block.row_count; ++i) {
     const Line& target = row[JacobianLines(block.form)];
-    for (int l = 0; l < kLanes; ++l) {
+    for (int l = 0; l < lanes; ++l) {
       gain[l] += static_cast<double>(target.lane[l]) * static_cast<double>(x[i].lane[l]);
     }
     if (block.rows[i].soft) {
       const Line& soft = row[JacobianLines(block.form) + 2];
-      for (int l = 0; l < kLanes; ++l) {
+      for (int l = 0; l < lanes; ++l) {
         const double impulse = static_cast<double>(x[i].lane[l]);
         square[l] += static_cast<double>(soft.lane[l]) * impulse * impulse;
       }
     }
     row += RowLines(block.form, block.rows[i]);
   }
-  for (int l = 0; l < kLanes; ++l) gains->gain[l] = l < block.lanes ? gain[l] : 0;
-  for (int l = 0; l < kLanes; ++l) gains->square[l] = l < block.lanes ? square[l] : 0;
+  for (int l = 0; l < lanes; ++l) gains->gain[l] = gain[l];
+  for (int l = 0; l < lanes; ++l) gains->square[l] = square[l];
+}
+
+inline void FindGains(const PairBlock& block, const Line* lines, const Line* x, LaneGains* gains) {
+  if (block.lanes <= 4) return FindGainsOf<4>(block, lines, x, gains);
+  if (block.lanes <= 8) return FindGainsOf<8>(block, lines, x, gains);
+  FindGainsOf<kLanes>(block, lines, x, gains);
 }
 
 inline void FindSquares(const BodyLane* bodies, int count, double* squares) {

@@ -21,8 +21,7 @@ struct Moving {
   Numbers* direction;
 };
 
-/// What the rows of a pair add to the energy that their problem minimises, in each lane [J]; 0 in
-/// lanes that are not used.
+/// What the rows of a pair add to the energy that their problem minimises, in each lane in use [J].
 struct LaneGains {
   double gain[kLanes];    ///< target'x
   double square[kLanes];  ///< x'E x
@@ -30,9 +29,10 @@ struct LaneGains {
 
 /// Passes over numbers of lanes that relax nothing. Same bits on every target.
 struct LaneKernels {
-  /// now += beta direction, direction := keep (now - last), last := now: so many lines.
+  /// now += beta direction, direction := keep (now - last), last := now: so many lines, their first
+  /// @p lanes lanes. Others may move or not.
   /// @param ways  ways[of_lane[l]] is that of lane l
-  void (*move_lines)(const Way* ways, const std::int32_t* of_lane, int count,
+  void (*move_lines)(const Way* ways, const std::int32_t* of_lane, int lanes, int count,
                      const Moving<Line>& numbers);
   /// The same for so many bodies. @param ways  ways[of_body[i]] is that of body i
   void (*move_bodies)(const Way* ways, const std::int32_t* of_body, int count,

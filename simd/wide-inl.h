@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sixteen floats as one to four registers, and bodies gathered into them. Compiled once per target.
+// The first 4, 8 or 16 floats of lines as one to four registers, and bodies gathered into them.
+// Compiled once per target.
 #if defined(CAIRN_SIMD_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAIRN_SIMD_WIDE_INL_H_
 #undef CAIRN_SIMD_WIDE_INL_H_
@@ -20,27 +21,34 @@ namespace cairn::simd {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<float, kLanes>;
-using V = hn::Vec<D>;
+/// Floats of a register that holds @p lanes of them at most.
+template <class D>
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
 
 /// Registers as a tree, so that the compiler sees values and never an array: each operation is done
 /// on all registers before the next, which gives the core independent chains to work on.
-template <int kRegisters>
+template <class D, int n>
 struct Registers {
-  Registers<kRegisters / 2> lo, hi;
+  static constexpr int kRegisters = n;
+  Registers<D, n / 2> lo, hi;
 };
-template <>
-struct Registers<1> {
-  V v;
+template <class D>
+struct Registers<D, 1> {
+  static constexpr int kRegisters = 1;
+  hn::Vec<D> v;
 };
-using Wide = Registers<kLanes / kWidth>;
+/// The first @p lanes floats of a line.
+template <int lanes, class D = hn::CappedTag<float, lanes>>
+using Wide = Registers<D, lanes / kWidth<D>>;
 
-#define CAIRN_BINARY(NAME)                                                                      \
-  HWY_INLINE Registers<1> NAME(Registers<1> a, Registers<1> b) { return {hn::NAME(a.v, b.v)}; } \
-  template <int n>                                                                              \
-  HWY_INLINE Registers<n> NAME(const Registers<n>& a, const Registers<n>& b) {                  \
-    return {NAME(a.lo, b.lo), NAME(a.hi, b.hi)};                                                \
+#define CAIRN_BINARY(NAME)                                                              \
+  template <class D>                                                                    \
+  HWY_INLINE Registers<D, 1> NAME(const Registers<D, 1>& a, const Registers<D, 1>& b) { \
+    return {hn::NAME(a.v, b.v)};                                                        \
+  }                                                                                     \
+  template <class D, int n>                                                             \
+  HWY_INLINE Registers<D, n> NAME(const Registers<D, n>& a, const Registers<D, n>& b) { \
+    return {NAME(a.lo, b.lo), NAME(a.hi, b.hi)};                                        \
   }
 CAIRN_BINARY(Add)
 CAIRN_BINARY(Sub)
@@ -50,53 +58,75 @@ CAIRN_BINARY(Min)
 CAIRN_BINARY(Max)
 #undef CAIRN_BINARY
 
-template <class T>
-HWY_INLINE T LoadAs(const float* from) {
-  if constexpr (sizeof(T) == sizeof(Registers<1>)) {
-    return {hn::Load(D(), from)};
-  } else {
-    using Half = decltype(T::lo);
-    constexpr int kHalf = static_cast<int>(sizeof(Half) / sizeof(float));
-    return {LoadAs<Half>(from), LoadAs<Half>(from + kHalf)};
-  }
+template <class D>
+HWY_INLINE void LoadFrom(const float* from, Registers<D, 1>* a) {
+  a->v = hn::Load(D(), from);
 }
-HWY_INLINE Wide LoadLine(const Line& line) { return LoadAs<Wide>(line.lane); }
+template <class D, int n>
+HWY_INLINE void LoadFrom(const float* from, Registers<D, n>* a) {
+  LoadFrom(from, &a->lo);
+  LoadFrom(from + n / 2 * kWidth<D>, &a->hi);
+}
+template <class W>
+HWY_INLINE W LoadLine(const Line& line) {
+  W a;
+  LoadFrom(line.lane, &a);
+  return a;
+}
 
-HWY_INLINE void StoreTo(float* to, Registers<1> a) { hn::Store(a.v, D(), to); }
-template <int n>
-HWY_INLINE void StoreTo(float* to, const Registers<n>& a) {
+template <class D>
+HWY_INLINE void StoreTo(float* to, const Registers<D, 1>& a) {
+  hn::Store(a.v, D(), to);
+}
+template <class D, int n>
+HWY_INLINE void StoreTo(float* to, const Registers<D, n>& a) {
   StoreTo(to, a.lo);
-  StoreTo(to + n / 2 * kWidth, a.hi);
+  StoreTo(to + n / 2 * kWidth<D>, a.hi);
 }
-HWY_INLINE void StoreLine(const Wide& a, Line* line) { StoreTo(line->lane, a); }
-
-template <class T>
-HWY_INLINE T SetAs(float value) {
-  if constexpr (sizeof(T) == sizeof(Registers<1>)) {
-    return {hn::Set(D(), value)};
-  } else {
-    using Half = decltype(T::lo);
-    return {SetAs<Half>(value), SetAs<Half>(value)};
-  }
+template <class W>
+HWY_INLINE void StoreLine(const W& a, Line* line) {
+  StoreTo(line->lane, a);
 }
-HWY_INLINE Wide SetAll(float value) { return SetAs<Wide>(value); }
 
-HWY_INLINE Registers<1> Abs(Registers<1> a) { return {hn::Abs(a.v)}; }
-HWY_INLINE Registers<1> Neg(Registers<1> a) { return {hn::Neg(a.v)}; }
+template <class D>
+HWY_INLINE void Clear(Registers<D, 1>* a) {
+  a->v = hn::Zero(D());
+}
+template <class D, int n>
+HWY_INLINE void Clear(Registers<D, n>* a) {
+  Clear(&a->lo);
+  Clear(&a->hi);
+}
+template <class W>
+HWY_INLINE W Zeros() {
+  W a;
+  Clear(&a);
+  return a;
+}
+
+template <class D>
+HWY_INLINE Registers<D, 1> Abs(const Registers<D, 1>& a) {
+  return {hn::Abs(a.v)};
+}
+template <class D>
+HWY_INLINE Registers<D, 1> Neg(const Registers<D, 1>& a) {
+  return {hn::Neg(a.v)};
+}
 /// a where b > 0, else 0.
-HWY_INLINE Registers<1> WherePositive(Registers<1> a, Registers<1> b) {
+template <class D>
+HWY_INLINE Registers<D, 1> WherePositive(const Registers<D, 1>& a, const Registers<D, 1>& b) {
   return {hn::IfThenElseZero(hn::Gt(b.v, hn::Zero(D())), a.v)};
 }
-template <int n>
-HWY_INLINE Registers<n> Abs(const Registers<n>& a) {
+template <class D, int n>
+HWY_INLINE Registers<D, n> Abs(const Registers<D, n>& a) {
   return {Abs(a.lo), Abs(a.hi)};
 }
-template <int n>
-HWY_INLINE Registers<n> Neg(const Registers<n>& a) {
+template <class D, int n>
+HWY_INLINE Registers<D, n> Neg(const Registers<D, n>& a) {
   return {Neg(a.lo), Neg(a.hi)};
 }
-template <int n>
-HWY_INLINE Registers<n> WherePositive(const Registers<n>& a, const Registers<n>& b) {
+template <class D, int n>
+HWY_INLINE Registers<D, n> WherePositive(const Registers<D, n>& a, const Registers<D, n>& b) {
   return {WherePositive(a.lo, b.lo), WherePositive(a.hi, b.hi)};
 }
 
@@ -152,57 +182,70 @@ HWY_INLINE hn::Vec<DQ> LoadQuarter(DQ d, const BodyLane* bodies, std::int32_t sl
 /// Whole-body loads and a transpose: element gathers are slower than scalar code on many CPUs.
 /// Beyond the first @p lanes lanes, and those that are read with them, numbers are 0 or those of
 /// the body of their slot. Few lanes, as blocks of small worlds have, take a third of the time.
-template <class T>
-HWY_INLINE Three<T> GatherAs(const BodyLane* bodies, const std::int32_t* slot, int part,
-                             int lanes) {
-  if constexpr (sizeof(T) == sizeof(Registers<1>)) {
-    const D d;
-    V r0, r1, r2, r3;
-    if (lanes <= 4) {
-      r0 = LoadQuarter(d, bodies, slot[0], part);
-      r1 = LoadQuarter(d, bodies, slot[1], part);
-      r2 = LoadQuarter(d, bodies, slot[2], part);
-      r3 = LoadQuarter(d, bodies, slot[3], part);
-    } else {
-      r0 = LoadQuarters(d, bodies, slot, part);
-      r1 = LoadQuarters(d, bodies, slot + 1, part);
-      r2 = LoadQuarters(d, bodies, slot + 2, part);
-      r3 = LoadQuarters(d, bodies, slot + 3, part);
-    }
-    const V xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
-    const V zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
-    return {{hn::InterleaveLower(d, xy02, xy13)},
-            {hn::InterleaveUpper(d, xy02, xy13)},
-            {hn::InterleaveLower(d, zw02, zw13)}};
+template <class D>
+HWY_INLINE void GatherTo(const BodyLane* bodies, const std::int32_t* slot, int part, int lanes,
+                         Registers<D, 1>* x, Registers<D, 1>* y, Registers<D, 1>* z) {
+  const D d;
+  hn::Vec<D> r0, r1, r2, r3;
+  if (lanes <= 4) {
+    r0 = LoadQuarter(d, bodies, slot[0], part);
+    r1 = LoadQuarter(d, bodies, slot[1], part);
+    r2 = LoadQuarter(d, bodies, slot[2], part);
+    r3 = LoadQuarter(d, bodies, slot[3], part);
   } else {
-    using Half = decltype(T::lo);
-    constexpr int kHalf = static_cast<int>(sizeof(Half) / sizeof(float));
-    const auto lo = GatherAs<Half>(bodies, slot, part, lanes);
-    const auto hi = GatherAs<Half>(bodies, slot + kHalf, part, lanes - kHalf);
-    return {{lo.x, hi.x}, {lo.y, hi.y}, {lo.z, hi.z}};
+    r0 = LoadQuarters(d, bodies, slot, part);
+    r1 = LoadQuarters(d, bodies, slot + 1, part);
+    r2 = LoadQuarters(d, bodies, slot + 2, part);
+    r3 = LoadQuarters(d, bodies, slot + 3, part);
   }
+  const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
+  const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
+  x->v = hn::InterleaveLower(d, xy02, xy13);
+  y->v = hn::InterleaveUpper(d, xy02, xy13);
+  z->v = hn::InterleaveLower(d, zw02, zw13);
+}
+template <class D, int n>
+HWY_INLINE void GatherTo(const BodyLane* bodies, const std::int32_t* slot, int part, int lanes,
+                         Registers<D, n>* x, Registers<D, n>* y, Registers<D, n>* z) {
+  constexpr int kHalf = n / 2 * kWidth<D>;
+  GatherTo(bodies, slot, part, lanes, &x->lo, &y->lo, &z->lo);
+  GatherTo(bodies, slot + kHalf, part, lanes - kHalf, &x->hi, &y->hi, &z->hi);
+}
+template <class W>
+HWY_INLINE Three<W> GatherBodies(const BodyLane* bodies, const std::int32_t* slot, int part,
+                                 int lanes) {
+  Three<W> u;
+  GatherTo(bodies, slot, part, lanes, &u.x, &u.y, &u.z);
+  return u;
 }
 
-/// Writes what GatherAs() read, for the first @p lanes lanes.
-HWY_INLINE void ScatterAs(const Three<Registers<1>>& u, BodyLane* bodies, const std::int32_t* slot,
-                          int part, int lanes) {
+template <class D>
+HWY_INLINE void ScatterFrom(const Registers<D, 1>& x, const Registers<D, 1>& y,
+                            const Registers<D, 1>& z, BodyLane* bodies, const std::int32_t* slot,
+                            int part, int lanes) {
   const D d;
-  const V zero = hn::Zero(d);
-  const V xz01 = hn::InterleaveLower(d, u.x.v, u.z.v), y01 = hn::InterleaveLower(d, u.y.v, zero);
-  const V xz23 = hn::InterleaveUpper(d, u.x.v, u.z.v), y23 = hn::InterleaveUpper(d, u.y.v, zero);
+  const auto zero = hn::Zero(d);
+  const auto xz01 = hn::InterleaveLower(d, x.v, z.v), y01 = hn::InterleaveLower(d, y.v, zero);
+  const auto xz23 = hn::InterleaveUpper(d, x.v, z.v), y23 = hn::InterleaveUpper(d, y.v, zero);
   // within a block of four: the step between lanes of one register is 1
   StoreQuarters(d, hn::InterleaveLower(d, xz01, y01), bodies, slot, part, lanes);
   StoreQuarters(d, hn::InterleaveUpper(d, xz01, y01), bodies, slot + 1, part, lanes - 1);
   StoreQuarters(d, hn::InterleaveLower(d, xz23, y23), bodies, slot + 2, part, lanes - 2);
   StoreQuarters(d, hn::InterleaveUpper(d, xz23, y23), bodies, slot + 3, part, lanes - 3);
 }
-template <int n>
-HWY_INLINE void ScatterAs(const Three<Registers<n>>& u, BodyLane* bodies, const std::int32_t* slot,
-                          int part, int lanes) {
-  constexpr int kHalf = n / 2 * kWidth;
-  using Half = Three<Registers<n / 2>>;
-  ScatterAs(Half{u.x.lo, u.y.lo, u.z.lo}, bodies, slot, part, lanes);
-  ScatterAs(Half{u.x.hi, u.y.hi, u.z.hi}, bodies, slot + kHalf, part, lanes - kHalf);
+template <class D, int n>
+HWY_INLINE void ScatterFrom(const Registers<D, n>& x, const Registers<D, n>& y,
+                            const Registers<D, n>& z, BodyLane* bodies, const std::int32_t* slot,
+                            int part, int lanes) {
+  constexpr int kHalf = n / 2 * kWidth<D>;
+  ScatterFrom(x.lo, y.lo, z.lo, bodies, slot, part, lanes);
+  ScatterFrom(x.hi, y.hi, z.hi, bodies, slot + kHalf, part, lanes - kHalf);
+}
+/// Writes what GatherBodies() read, for the first @p lanes lanes.
+template <class W>
+HWY_INLINE void ScatterBodies(const Three<W>& u, BodyLane* bodies, const std::int32_t* slot,
+                              int part, int lanes) {
+  ScatterFrom(u.x, u.y, u.z, bodies, slot, part, lanes);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -41,7 +41,7 @@ void WriteRow(const RowScene& scene, const RowScene::Pair& pair, int index, Lane
   const Vector3d angular_a = a.root.transpose() * row.angular_a;
   const Vector3d angular_b = b.root.transpose() * row.angular_b;
   if (scene.form == PairForm::kContact) {
-    writer->Add(row.linear);
+    writer->Add(std::sqrt(a.inv_mass + b.inv_mass) * row.linear);
     writer->Add(angular_a);
     writer->Add(angular_b);
   } else {
@@ -104,8 +104,9 @@ void PairScene::AddBlock(const RowScene& scene, int first_pair) {
     block.b[lane] = pair.b;
     LaneWriter writer(&data_[block.data], lane);
     if (scene.form == PairForm::kContact) {
-      writer.Add(std::sqrt(scene.bodies[pair.a].inv_mass));
-      writer.Add(std::sqrt(scene.bodies[pair.b].inv_mass));
+      const double a = scene.bodies[pair.a].inv_mass, b = scene.bodies[pair.b].inv_mass;
+      writer.Add(std::sqrt(a / (a + b)));
+      writer.Add(std::sqrt(b / (a + b)));
     }
     for (int i = 0; i < block.row_count; ++i) WriteRow(scene, pair, i, &writer);
   }

@@ -29,10 +29,10 @@ struct alignas(32) BodyLane {
 enum class PairForm : std::uint8_t {
   /// Any rows between two movable bodies. Row: G_a (6 lines), G_b (6).
   kJoint,
-  /// Rows that act on the bodies with opposite forces. Pair: s_a, s_b, the square roots of the
-  /// inverse masses, not both 0. Row: the direction n, so that the linear parts are s_a n and -s_b
-  /// n (3), the
-  /// angular parts of G_a (3) and G_b (3).
+  /// Rows that act on the bodies with opposite forces. With s_a and s_b, the square roots of the
+  /// inverse masses, not both 0, and r^2 = s_a^2 + s_b^2, pair: c_a = s_a / r, c_b = s_b / r. Row:
+  /// r n, n being its direction, so that the linear parts are c_a r n and -c_b r n (3), the angular
+  /// parts of G_a (3) and G_b (3).
   kContact,
   /// Rows between a body and what does not move. Row: G_a (6).
   kSingle,

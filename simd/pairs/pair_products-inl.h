@@ -40,25 +40,25 @@ constexpr int BodyLines(PairForm form) { return form == PairForm::kSingle ? 6 : 
 /// G of one row: the numbers of some lanes, which begin at @p lane.
 template <class T, PairForm form>
 struct RowOfLanes {
-  LaneVec<T> s_a, s_b;
+  LaneVec<T> c_a, c_b;
 
   HWY_INLINE RowOfLanes(const Line* pair, int lane) {
     if constexpr (form == PairForm::kContact) {
-      s_a = LoadAs(LaneTag<T>(), pair[0].lane + lane);
-      s_b = LoadAs(LaneTag<T>(), pair[1].lane + lane);
+      c_a = LoadAs(LaneTag<T>(), pair[0].lane + lane);
+      c_b = LoadAs(LaneTag<T>(), pair[1].lane + lane);
     } else {
-      s_a = s_b = hn::Zero(LaneTag<T>());
+      c_a = c_b = hn::Zero(LaneTag<T>());
     }
   }
-  /// g := all of them. Linear parts of contacts: s_a n and -s_b n.
+  /// g := all of them. See PairForm::kContact.
   HWY_INLINE void Expand(const Line* row, int lane, LaneVec<T>* g) const {
     const LaneTag<T> d;
     if constexpr (form == PairForm::kContact) {
       for (int k = 0; k < 3; ++k) {
         const auto n = LoadAs(d, row[k].lane + lane);
-        g[k] = hn::Mul(s_a, n);
+        g[k] = hn::Mul(c_a, n);
         g[3 + k] = LoadAs(d, row[3 + k].lane + lane);
-        g[6 + k] = hn::Neg(hn::Mul(s_b, n));
+        g[6 + k] = hn::Neg(hn::Mul(c_b, n));
         g[9 + k] = LoadAs(d, row[6 + k].lane + lane);
       }
     } else {

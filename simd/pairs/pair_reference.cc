@@ -19,8 +19,7 @@ float Min(float a, float b) { return a < b ? a : b; }
 struct LaneState {
   float v[12];
   float before[3];  ///< relative linear velocity that the pair began with
-  float s_a, s_b;
-  float k = 1;  ///< what an impulse of 1 along n changes the relative velocity by
+  float c_a, c_b;
 };
 
 LaneState Gather(PairForm form, const Line* pair, const float* a, const float* b, int lane) {
@@ -34,11 +33,10 @@ LaneState Gather(PairForm form, const Line* pair, const float* a, const float* b
     }
     return state;
   }
-  state.s_a = pair[0].lane[lane];
-  state.s_b = pair[1].lane[lane];
-  state.k = state.s_a * state.s_a + state.s_b * state.s_b;
+  state.c_a = pair[0].lane[lane];
+  state.c_b = pair[1].lane[lane];
   for (int i = 0; i < 3; ++i) {
-    state.before[i] = state.v[i] = state.s_a * a[i] - state.s_b * b[i];
+    state.before[i] = state.v[i] = state.c_a * a[i] - state.c_b * b[i];
     state.v[3 + i] = a[4 + i];
     state.v[6 + i] = b[4 + i];
   }
@@ -56,25 +54,19 @@ void Scatter(PairForm form, const LaneState& state, float* a, float* b) {
     }
     return;
   }
-  const float share_a = state.s_a / state.k, share_b = state.s_b / state.k;
   for (int i = 0; i < 3; ++i) {
     const float moved = state.v[i] - state.before[i];
-    a[i] = a[i] + share_a * moved;
-    b[i] = b[i] - share_b * moved;
+    a[i] = a[i] + state.c_a * moved;
+    b[i] = b[i] - state.c_b * moved;
     a[4 + i] = state.v[3 + i];
     b[4 + i] = state.v[6 + i];
   }
 }
 
-/// G v - target, summed as a balanced tree.
-float Sum(const Line* g, const float* v, float target, int lane, int first, int count) {
-  if (count == 1) {
-    const float product = g[first].lane[lane] * v[first];
-    return first == 0 ? product - target : product;
-  }
-  int half = 1;
-  while (2 * half < count) half *= 2;
-  return Sum(g, v, target, lane, first, half) + Sum(g, v, target, lane, first + half, count - half);
+/// G v from number @p first on, as a balanced tree.
+float Sum(const Line* g, const float* v, int lane, int first, int count) {
+  if (count == 1) return g[first].lane[lane] * v[first];
+  return Sum(g, v, lane, first, count / 2) + Sum(g, v, lane, first + count / 2, count / 2);
 }
 
 float Clamp(const RowShape& row, const Line* line, float parent, float x, int lane) {
@@ -90,8 +82,9 @@ float Clamp(const RowShape& row, const Line* line, float parent, float x, int la
       break;
   }
   const float most = line[0].lane[lane] * Max(parent, 0.0f);
-  if (row.bound == RowBound::kFriction) return Min(Max(x, -most), most);
-  return Min(Max(x, Max(-most, line[1].lane[lane])), Min(most, line[2].lane[lane]));
+  const float least = 0.0f - most;
+  if (row.bound == RowBound::kFriction) return Min(Max(x, least), most);
+  return Min(Max(x, Max(least, line[1].lane[lane])), Min(most, line[2].lane[lane]));
 }
 
 /// One row of one lane. @p x: the first impulse of the block.
@@ -104,30 +97,33 @@ void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, c
 
   float change = old;
   if (pass != Pass::kStart) {
-    float w = Sum(line, state->v, line[n].lane[lane], lane, 0, n);
+    float target = line[n].lane[lane];
     const Line* bounds = line + n + 2;
-    if (row.soft) w = w + (bounds++)->lane[lane] * old;
+    if (row.soft) target = target - (bounds++)->lane[lane] * old;
+    const int head = n < 8 ? 4 : 8;
+    const float tail = Sum(line, state->v, lane, head, n - head);
     const float step = line[n + 1].lane[lane];
     const float inv_d = row.relaxed ? step / (bounds++)->lane[lane] : step;
     const float factor = pass == Pass::kMeasure ? inv_d : step;
-    change = Clamp(row, bounds, parent, old - factor * w, lane) - old;
-    const bool rests = work.hold_lifted && row.parent >= 0 && !(parent > 0);
-    if (rests && pass != Pass::kMeasure) change = 0;
+    const float rest = old + factor * (target - tail);
+    const float moved = rest - factor * Sum(line, state->v, lane, 0, head);
+    float now = Clamp(row, bounds, parent, moved, lane);
+    change = now - old;
+    if (work.hold_lifted && row.parent >= 0 && pass != Pass::kMeasure) {
+      if (!(parent > 0)) change = 0;
+      now = old + change;
+    }
     if (pass != Pass::kSweep) {
-      const float moved = std::fabs(change), e = moved / inv_d;
+      const float size = std::fabs(change), e = size / inv_d;
       float& most = (row.angular ? error->max_angular : error->max).lane[lane];
       most = Max(e, most);
-      error->energy.lane[lane] = error->energy.lane[lane] + e * moved;
+      error->energy.lane[lane] = error->energy.lane[lane] + e * size;
     }
     if (pass == Pass::kMeasure) return;
-    x[index].lane[lane] = old + change;
+    x[index].lane[lane] = now;
   }
 
-  const float linear = state->k * change;
-  for (int i = 0; i < n; ++i) {
-    const bool shared = block.form == PairForm::kContact && i < 3;
-    state->v[i] = state->v[i] + line[i].lane[lane] * (shared ? linear : change);
-  }
+  for (int i = 0; i < n; ++i) state->v[i] = state->v[i] + line[i].lane[lane] * change;
 }
 
 void RunLane(Pass pass, const PairWork& work, const PairBlock& block, int lane, BlockError* error) {

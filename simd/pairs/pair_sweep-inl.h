@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Passes over pair blocks, sixteen lanes at a time. Compiled once per target; pair_reference.cc is
-// the specification, operation for operation.
+// Passes over pair blocks, 4, 8 or 16 lanes at a time. Compiled once per target; pair_reference.cc
+// is the specification, operation for operation.
 #if defined(CAIRN_SIMD_PAIR_SWEEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef CAIRN_SIMD_PAIR_SWEEP_INL_H_
 #undef CAIRN_SIMD_PAIR_SWEEP_INL_H_
@@ -23,78 +23,79 @@ constexpr bool Measures(Pass pass) {
   return pass == Pass::kMeasuredSweep || pass == Pass::kMeasure;
 }
 
-HWY_INLINE Wide Product(const Line& g, const Wide& v) { return Mul(LoadLine(g), v); }
+template <class W>
+HWY_INLINE W Product(const Line& g, const W& v) {
+  return Mul(LoadLine<W>(g), v);
+}
 
 // Sums of 2, 4 and 8 products as balanced trees: fewer steps from the velocities of one row to the
 // impulse of the next than one sum after the other.
-HWY_INLINE Wide Sum2(const Line* g, const Wide& v0, const Wide& v1) {
+template <class W>
+HWY_INLINE W Sum2(const Line* g, const W& v0, const W& v1) {
   return Add(Product(g[0], v0), Product(g[1], v1));
 }
-HWY_INLINE Wide Sum4(const Line* g, const Wide& v0, const Wide& v1, const Wide& v2,
-                     const Wide& v3) {
+template <class W>
+HWY_INLINE W Sum4(const Line* g, const W& v0, const W& v1, const W& v2, const W& v3) {
   return Add(Sum2(g, v0, v1), Sum2(g + 2, v2, v3));
 }
-/// The first four, less the target.
-HWY_INLINE Wide First4(const Line* g, const Line& target, const Wide& v0, const Wide& v1,
-                       const Wide& v2, const Wide& v3) {
-  const Wide first = Sub(Product(g[0], v0), LoadLine(target));
-  return Add(Add(first, Product(g[1], v1)), Sum2(g + 2, v2, v3));
-}
-HWY_INLINE void Apply(const Line* g, const Wide& change, Three<Wide>* v) {
-  v->x = AddProduct(v->x, LoadLine(g[0]), change);
-  v->y = AddProduct(v->y, LoadLine(g[1]), change);
-  v->z = AddProduct(v->z, LoadLine(g[2]), change);
+template <class W>
+HWY_INLINE void Apply(const Line* g, const W& change, Three<W>* v) {
+  v->x = AddProduct(v->x, LoadLine<W>(g[0]), change);
+  v->y = AddProduct(v->y, LoadLine<W>(g[1]), change);
+  v->z = AddProduct(v->z, LoadLine<W>(g[2]), change);
 }
 
 /// The numbers that G of a form multiplies, from and to the bodies.
-template <PairForm form>
+template <PairForm form, class W>
 struct PairState;
 
-template <>
-struct PairState<PairForm::kSingle> {
-  Three<Wide> linear, angular;
+template <class W>
+struct PairState<PairForm::kSingle, W> {
+  Three<W> linear, angular;
 
   HWY_INLINE void Gather(const PairWork& work, const PairBlock& block, const Line*) {
-    linear = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
-    angular = GatherAs<Wide>(work.bodies, block.a, 1, block.lanes);
+    linear = GatherBodies<W>(work.bodies, block.a, 0, block.lanes);
+    angular = GatherBodies<W>(work.bodies, block.a, 1, block.lanes);
   }
   HWY_INLINE void Scatter(const PairWork& work, const PairBlock& block) const {
-    ScatterAs(linear, work.bodies, block.a, 0, block.lanes);
-    ScatterAs(angular, work.bodies, block.a, 1, block.lanes);
+    ScatterBodies(linear, work.bodies, block.a, 0, block.lanes);
+    ScatterBodies(angular, work.bodies, block.a, 1, block.lanes);
   }
-  HWY_INLINE Wide Slack(const Line* g) const {
-    return Add(First4(g, g[6], linear.x, linear.y, linear.z, angular.x),
-               Sum2(g + 4, angular.y, angular.z));
+  // G v = Head() + Tail()
+  HWY_INLINE W Head(const Line* g) const {
+    return Sum4(g, linear.x, linear.y, linear.z, angular.x);
   }
-  HWY_INLINE void Push(const Line* g, const Wide& change) {
+  HWY_INLINE W Tail(const Line* g) const { return Sum2(g + 4, angular.y, angular.z); }
+  HWY_INLINE void Push(const Line* g, const W& change) {
     Apply(g, change, &linear);
     Apply(g + 3, change, &angular);
   }
 };
 
-template <>
-struct PairState<PairForm::kJoint> {
-  Three<Wide> linear_a, angular_a, linear_b, angular_b;
+template <class W>
+struct PairState<PairForm::kJoint, W> {
+  Three<W> linear_a, angular_a, linear_b, angular_b;
 
   HWY_INLINE void Gather(const PairWork& work, const PairBlock& block, const Line*) {
-    linear_a = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
-    angular_a = GatherAs<Wide>(work.bodies, block.a, 1, block.lanes);
-    linear_b = GatherAs<Wide>(work.bodies, block.b, 0, block.lanes);
-    angular_b = GatherAs<Wide>(work.bodies, block.b, 1, block.lanes);
+    linear_a = GatherBodies<W>(work.bodies, block.a, 0, block.lanes);
+    angular_a = GatherBodies<W>(work.bodies, block.a, 1, block.lanes);
+    linear_b = GatherBodies<W>(work.bodies, block.b, 0, block.lanes);
+    angular_b = GatherBodies<W>(work.bodies, block.b, 1, block.lanes);
   }
   HWY_INLINE void Scatter(const PairWork& work, const PairBlock& block) const {
-    ScatterAs(linear_a, work.bodies, block.a, 0, block.lanes);
-    ScatterAs(angular_a, work.bodies, block.a, 1, block.lanes);
-    ScatterAs(linear_b, work.bodies, block.b, 0, block.lanes);
-    ScatterAs(angular_b, work.bodies, block.b, 1, block.lanes);
+    ScatterBodies(linear_a, work.bodies, block.a, 0, block.lanes);
+    ScatterBodies(angular_a, work.bodies, block.a, 1, block.lanes);
+    ScatterBodies(linear_b, work.bodies, block.b, 0, block.lanes);
+    ScatterBodies(angular_b, work.bodies, block.b, 1, block.lanes);
   }
-  HWY_INLINE Wide Slack(const Line* g) const {
-    const Wide head = First4(g, g[12], linear_a.x, linear_a.y, linear_a.z, angular_a.x);
-    const Wide middle = Sum4(g + 4, angular_a.y, angular_a.z, linear_b.x, linear_b.y);
-    const Wide tail = Sum4(g + 8, linear_b.z, angular_b.x, angular_b.y, angular_b.z);
-    return Add(Add(head, middle), tail);
+  HWY_INLINE W Head(const Line* g) const {
+    return Add(Sum4(g, linear_a.x, linear_a.y, linear_a.z, angular_a.x),
+               Sum4(g + 4, angular_a.y, angular_a.z, linear_b.x, linear_b.y));
   }
-  HWY_INLINE void Push(const Line* g, const Wide& change) {
+  HWY_INLINE W Tail(const Line* g) const {
+    return Sum4(g + 8, linear_b.z, angular_b.x, angular_b.y, angular_b.z);
+  }
+  HWY_INLINE void Push(const Line* g, const W& change) {
     Apply(g, change, &linear_a);
     Apply(g + 3, change, &angular_a);
     Apply(g + 6, change, &linear_b);
@@ -102,86 +103,85 @@ struct PairState<PairForm::kJoint> {
   }
 };
 
-/// Both bodies see the same force, so that the relative linear velocity is enough to know while the
-/// rows of the pair are relaxed; in the end the bodies share what it changed by.
-template <>
-struct PairState<PairForm::kContact> {
-  Three<Wide> relative, angular_a, angular_b;
-  Wide k;
+/// Both bodies see the same force, so that their relative linear velocity r = c_a u_a - c_b u_b is
+/// enough to know while the rows of the pair are relaxed. What r changed by belongs to the bodies
+/// by c_a and -c_b: c_a^2 + c_b^2 = 1.
+template <class W>
+struct PairState<PairForm::kContact, W> {
+  Three<W> relative, angular_a, angular_b;
 
-  HWY_INLINE static Three<Wide> Relative(const PairWork& work, const PairBlock& block,
-                                         const Wide& s_a, const Wide& s_b) {
-    const Three<Wide> a = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
-    const Three<Wide> b = GatherAs<Wide>(work.bodies, block.b, 0, block.lanes);
-    return {Sub(Mul(s_a, a.x), Mul(s_b, b.x)), Sub(Mul(s_a, a.y), Mul(s_b, b.y)),
-            Sub(Mul(s_a, a.z), Mul(s_b, b.z))};
-  }
   HWY_INLINE void Gather(const PairWork& work, const PairBlock& block, const Line* pair) {
-    const Wide s_a = LoadLine(pair[0]), s_b = LoadLine(pair[1]);
-    k = Add(Mul(s_a, s_a), Mul(s_b, s_b));
-    relative = Relative(work, block, s_a, s_b);
-    angular_a = GatherAs<Wide>(work.bodies, block.a, 1, block.lanes);
-    angular_b = GatherAs<Wide>(work.bodies, block.b, 1, block.lanes);
+    const W c_a = LoadLine<W>(pair[0]), c_b = LoadLine<W>(pair[1]);
+    const Three<W> a = GatherBodies<W>(work.bodies, block.a, 0, block.lanes);
+    const Three<W> b = GatherBodies<W>(work.bodies, block.b, 0, block.lanes);
+    relative = {Relative(c_a, c_b, a.x, b.x), Relative(c_a, c_b, a.y, b.y),
+                Relative(c_a, c_b, a.z, b.z)};
+    angular_a = GatherBodies<W>(work.bodies, block.a, 1, block.lanes);
+    angular_b = GatherBodies<W>(work.bodies, block.b, 1, block.lanes);
   }
   HWY_INLINE void Scatter(const PairWork& work, const PairBlock& block) const {
-    ScatterAs(angular_a, work.bodies, block.a, 1, block.lanes);
-    ScatterAs(angular_b, work.bodies, block.b, 1, block.lanes);
+    ScatterBodies(angular_a, work.bodies, block.a, 1, block.lanes);
+    ScatterBodies(angular_b, work.bodies, block.b, 1, block.lanes);
 
     // gathered once more rather than kept: the registers are needed for the rows
     const Line* const pair = work.data + block.data;
-    const Wide s_a = LoadLine(pair[0]), s_b = LoadLine(pair[1]);
-    const Wide share_a = Div(s_a, k), share_b = Div(s_b, k);
-    Three<Wide> a = GatherAs<Wide>(work.bodies, block.a, 0, block.lanes);
-    Three<Wide> b = GatherAs<Wide>(work.bodies, block.b, 0, block.lanes);
-    Share(s_a, s_b, share_a, share_b, relative.x, &a.x, &b.x);
-    Share(s_a, s_b, share_a, share_b, relative.y, &a.y, &b.y);
-    Share(s_a, s_b, share_a, share_b, relative.z, &a.z, &b.z);
-    ScatterAs(a, work.bodies, block.a, 0, block.lanes);
-    ScatterAs(b, work.bodies, block.b, 0, block.lanes);
+    const W c_a = LoadLine<W>(pair[0]), c_b = LoadLine<W>(pair[1]);
+    Three<W> a = GatherBodies<W>(work.bodies, block.a, 0, block.lanes);
+    Three<W> b = GatherBodies<W>(work.bodies, block.b, 0, block.lanes);
+    Share(c_a, c_b, relative.x, &a.x, &b.x);
+    Share(c_a, c_b, relative.y, &a.y, &b.y);
+    Share(c_a, c_b, relative.z, &a.z, &b.z);
+    ScatterBodies(a, work.bodies, block.a, 0, block.lanes);
+    ScatterBodies(b, work.bodies, block.b, 0, block.lanes);
   }
-  HWY_INLINE static void Share(const Wide& s_a, const Wide& s_b, const Wide& share_a,
-                               const Wide& share_b, const Wide& now, Wide* a, Wide* b) {
-    const Wide moved = Sub(now, Sub(Mul(s_a, *a), Mul(s_b, *b)));
-    *a = AddProduct(*a, share_a, moved);
-    *b = Sub(*b, Mul(share_b, moved));
+  HWY_INLINE static W Relative(const W& c_a, const W& c_b, const W& a, const W& b) {
+    return Sub(Mul(c_a, a), Mul(c_b, b));
   }
-  HWY_INLINE Wide Slack(const Line* g) const {
-    const Wide head = First4(g, g[9], relative.x, relative.y, relative.z, angular_a.x);
-    const Wide middle = Sum4(g + 4, angular_a.y, angular_a.z, angular_b.x, angular_b.y);
-    return Add(Add(head, middle), Product(g[8], angular_b.z));
+  HWY_INLINE static void Share(const W& c_a, const W& c_b, const W& now, W* a, W* b) {
+    const W moved = Sub(now, Relative(c_a, c_b, *a, *b));
+    *a = AddProduct(*a, c_a, moved);
+    *b = Sub(*b, Mul(c_b, moved));
   }
-  HWY_INLINE void Push(const Line* g, const Wide& change) {
-    Apply(g, Mul(k, change), &relative);
+  HWY_INLINE W Head(const Line* g) const {
+    return Add(Sum4(g, relative.x, relative.y, relative.z, angular_a.x),
+               Sum4(g + 4, angular_a.y, angular_a.z, angular_b.x, angular_b.y));
+  }
+  HWY_INLINE W Tail(const Line* g) const { return Product(g[8], angular_b.z); }
+  HWY_INLINE void Push(const Line* g, const W& change) {
+    Apply(g, change, &relative);
     Apply(g + 3, change, &angular_a);
     Apply(g + 6, change, &angular_b);
   }
 };
 
-HWY_INLINE Wide Clamp(const RowShape& row, const Line* bounds, const Line* x_of_block,
-                      const Wide& x) {
+template <class W>
+HWY_INLINE W Clamp(const RowShape& row, const Line* bounds, const Line* x_of_block, const W& x) {
   switch (row.bound) {
     case RowBound::kFree:
       return x;
     case RowBound::kPush:
-      return Max(x, SetAll(0));
+      return Max(x, Zeros<W>());
     case RowBound::kOwn:
-      return Min(Max(x, LoadLine(bounds[0])), LoadLine(bounds[1]));
+      return Min(Max(x, LoadLine<W>(bounds[0])), LoadLine<W>(bounds[1]));
     case RowBound::kFriction:
     case RowBound::kCutFriction:
       break;
   }
-  const Wide most = Mul(LoadLine(bounds[0]), Max(LoadLine(x_of_block[row.parent]), SetAll(0)));
-  if (row.bound == RowBound::kFriction) return Min(Max(x, Neg(most)), most);
-  return Min(Max(x, Max(Neg(most), LoadLine(bounds[1]))), Min(most, LoadLine(bounds[2])));
+  // 0 - 0 is +0 on every target, -(0) is not
+  const W most = Mul(LoadLine<W>(bounds[0]), Max(LoadLine<W>(x_of_block[row.parent]), Zeros<W>()));
+  const W least = Sub(Zeros<W>(), most);
+  if (row.bound == RowBound::kFriction) return Min(Max(x, least), most);
+  return Min(Max(x, Max(least, LoadLine<W>(bounds[1]))), Min(most, LoadLine<W>(bounds[2])));
 }
 
 /// Largest and squared errors of the rows seen so far.
+template <class W>
 struct ErrorSums {
-  Wide max, max_angular, energy;
+  W max, max_angular, energy;
 
-  HWY_INLINE void Reset() { max = max_angular = energy = SetAll(0); }
-  HWY_INLINE void Add(const RowShape& row, const Wide& change, const Wide& inv_d) {
-    const Wide moved = Abs(change), e = Div(moved, inv_d);
+  HWY_INLINE void Reset() { max = max_angular = energy = Zeros<W>(); }
+  HWY_INLINE void Add(const RowShape& row, const W& change, const W& inv_d) {
+    const W moved = Abs(change), e = Div(moved, inv_d);
     if (row.angular) {
       max_angular = Max(e, max_angular);
     } else {
@@ -196,40 +196,46 @@ struct ErrorSums {
   }
 };
 
-template <PairForm form, Pass pass>
+template <PairForm form, Pass pass, class W>
 HWY_INLINE void RelaxRow(const PairWork& work, const RowShape& row, const Line* line, Line* x_block,
-                         Line* x_row, PairState<form>* state, ErrorSums* errors) {
+                         Line* x_row, PairState<form, W>* state, ErrorSums<W>* errors) {
   constexpr int kTarget = JacobianLines(form), kStep = kTarget + 1;
-  const Wide old = LoadLine(*x_row);
-  Wide w = state->Slack(line);
+  const W old = LoadLine<W>(*x_row);
+  W target = LoadLine<W>(line[kTarget]);
   const Line* bounds = line + kStep + 1;
-  if (row.soft) w = AddProduct(w, LoadLine(*bounds++), old);
+  if (row.soft) target = Sub(target, Mul(LoadLine<W>(*bounds++), old));
 
-  const Wide step = LoadLine(line[kStep]);
-  Wide inv_d = step;
+  const W step = LoadLine<W>(line[kStep]);
+  W inv_d = step;
   if (row.relaxed) {
-    const Wide relaxation = LoadLine(*bounds++);
+    const W relaxation = LoadLine<W>(*bounds++);
     if (pass != Pass::kSweep) inv_d = Div(step, relaxation);
   }
-  const Wide moved = Sub(old, Mul(pass == Pass::kMeasure ? inv_d : step, w));
-  Wide change = Sub(Clamp(row, bounds, x_block, moved), old);
+  // old + factor (target - G v); what does not depend on the row before is added first
+  const W factor = pass == Pass::kMeasure ? inv_d : step;
+  const W rest = Add(old, Mul(factor, Sub(target, state->Tail(line))));
+  const W moved = Sub(rest, Mul(factor, state->Head(line)));
+  W now = Clamp(row, bounds, x_block, moved);
+  // what the bodies see is what becomes of the impulse, as a float has it
+  W change = Sub(now, old);
   if (pass == Pass::kMeasure) return errors->Add(row, change, inv_d);
 
   if (work.hold_lifted && row.parent >= 0) {
-    change = WherePositive(change, LoadLine(x_block[row.parent]));
+    change = WherePositive(change, LoadLine<W>(x_block[row.parent]));
+    now = Add(old, change);
   }
   if (pass == Pass::kMeasuredSweep) errors->Add(row, change, inv_d);
-  StoreLine(Add(old, change), x_row);
+  StoreLine(now, x_row);
   state->Push(line, change);
 }
 
 /// A block on its way through the rows.
-template <PairForm form, Pass pass>
+template <PairForm form, Pass pass, class W>
 struct BlockState {
   const Line* line;
   Line* x;
-  PairState<form> pair;
-  ErrorSums errors;
+  PairState<form, W> pair;
+  ErrorSums<W> errors;
 
   HWY_INLINE void Begin(const PairWork& work, const PairBlock& block) {
     line = work.data + block.data;
@@ -240,7 +246,7 @@ struct BlockState {
   }
   HWY_INLINE void DoRow(const PairWork& work, const RowShape& row, int i) {
     if constexpr (pass == Pass::kStart) {
-      pair.Push(line, LoadLine(x[i]));
+      pair.Push(line, LoadLine<W>(x[i]));
     } else if (pass == Pass::kMeasure || work.sweep < row.max_sweeps) {
       RelaxRow<form, pass>(work, row, line, x, x + i, &pair, &errors);
     }
@@ -252,10 +258,11 @@ struct BlockState {
   }
 };
 
-template <PairForm form, Pass pass>
+/// @p lanes: those of the block at least.
+template <PairForm form, Pass pass, int lanes>
 HWY_NOINLINE void RunBlock(const PairWork& work, int at) {
   const PairBlock& block = work.blocks[at];
-  BlockState<form, pass> state;
+  BlockState<form, pass, Wide<lanes>> state;
   state.Begin(work, block);
   for (int i = 0; i < block.row_count; ++i) state.DoRow(work, block.rows[i], i);
   state.End(work, at);
@@ -265,7 +272,7 @@ HWY_NOINLINE void RunBlock(const PairWork& work, int at) {
 template <PairForm form, Pass pass>
 HWY_NOINLINE void RunTwoBlocks(const PairWork& work, int at) {
   const PairBlock &block = work.blocks[at], &next = work.blocks[at + 1];
-  BlockState<form, pass> first, second;
+  BlockState<form, pass, Wide<kLanes>> first, second;
   first.Begin(work, block);
   second.Begin(work, next);
   for (int i = 0; i < block.row_count; ++i) {
@@ -277,18 +284,26 @@ HWY_NOINLINE void RunTwoBlocks(const PairWork& work, int at) {
 }
 
 /// Registers that hold more than one block: a line is one of them.
-constexpr bool kTwoAtOnce = kWidth == kLanes;
-
-/// From block @p at on. Returns how many were done.
+constexpr bool kTwoAtOnce = Wide<kLanes>::kRegisters == 1;
+/// From block @p at on, in registers as narrow as its lanes allow: small worlds have blocks with
+/// few lanes, and a division of sixteen numbers takes four times as long as one of four. Returns
+/// how many blocks were done.
 template <PairForm form, Pass pass>
 int RunSome(const PairWork& work, int at) {
+  const PairBlock& block = work.blocks[at];
   if constexpr (kTwoAtOnce) {
-    if (at + 1 < work.count && work.blocks[at].like_next) {
+    if (at + 1 < work.count && block.like_next) {
       RunTwoBlocks<form, pass>(work, at);
       return 2;
     }
   }
-  RunBlock<form, pass>(work, at);
+  if (block.lanes <= 4) {
+    RunBlock<form, pass, 4>(work, at);
+  } else if (block.lanes <= 8) {
+    RunBlock<form, pass, 8>(work, at);
+  } else {
+    RunBlock<form, pass, kLanes>(work, at);
+  }
   return 1;
 }
 

@@ -43,6 +43,20 @@ HWY_INLINE void Gather(const ContactBody* const* from, Bodies* bodies) {
   for (int k = 0; k < kContactBodyNumbers; k += 4) TransposeFour(numbers, k, bodies->number + k);
 }
 
+/// Writes the lines of a pair of PairForm::kContact; @p scale: r, by which directions are scaled.
+HWY_INLINE void PutPair(const Bodies& a, const Bodies& b, Line* out, Line* scale) {
+  const V zero = hn::Zero(D());
+  for (int l = 0; l < kLanes; l += kWidth) {
+    const V s_a = Load(a.number[0], l), s_b = Load(b.number[0], l);
+    const V r = hn::Sqrt(s_a * s_a + s_b * s_b);
+    const M moves = hn::Gt(r, zero);
+    const V divisor = hn::IfThenElse(moves, r, Set(1));
+    Store(s_a / divisor, out, l);
+    Store(s_b / divisor, out + 1, l);
+    Store(r, scale, l);
+  }
+}
+
 /// Writes target and step 1 / d of a row whose other lines are there. A row with d = 0, which
 /// nothing can satisfy, asks for nothing. False in lanes that do not fit a float with its square,
 /// or are not finite.

@@ -64,8 +64,8 @@ class Packer {
 
   bool Pack(Line* directions) {
     if constexpr (form == PairForm::kContact) {
-      *out_++ = a_.number[0];
-      *out_++ = b_.number[0];
+      PutPair(a_, b_, out_, &scale_);
+      out_ += PairLines(form);
     }
     Point points[kMostPoints];
     for (int p = 0; p < lanes_.points; ++p) {
@@ -213,7 +213,11 @@ class Packer {
     } else {
       const Vector g_a = Scale(d, a_.linear(l)), g_b = Scale(Set(-1) * d, b_.linear(l));
       const Vector turn_a = a_.Whiten(Cross(arm_a, d), l), turn_b = b_.Whiten(Cross(d, arm_b), l);
-      Put(form == PairForm::kContact ? d : g_a, out_, l);
+      if constexpr (form == PairForm::kContact) {
+        Put(Load(scale_, l) * d, out_, l);
+      } else {
+        Put(g_a, out_, l);
+      }
       Put(turn_a, out_ + 3, l);
       if constexpr (form == PairForm::kJoint) Put(g_b, out_ + 6, l);
       Put(turn_b, out_ + JacobianLines(form) - 3, l);
@@ -283,6 +287,7 @@ class Packer {
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle
   Line sign_;              ///< of the moving body in a row
+  Line scale_;             ///< of PairForm::kContact, see PutPair()
   bool fits_ = true;
 };
 

@@ -45,8 +45,8 @@ class JointPacker {
 
   bool Pack() {
     if constexpr (form == PairForm::kContact) {
-      *out_++ = a_.number[0];
-      *out_++ = b_.number[0];
+      PutPair(a_, b_, out_, &scale_);
+      out_ += PairLines(form);
     }
     for (int i = 0; i < lanes_.row_count; ++i) {
       Read(i);
@@ -106,7 +106,7 @@ class JointPacker {
       const JointSide side{Where(second, b.linear, a.linear), Where(second, b.angular, a.angular)};
       diagonal = PutSide(side, moving_, l, out_, out_ + 3);
     } else if constexpr (form == PairForm::kContact) {
-      Put(a.linear, out_, l);
+      Put(Load(scale_, l) * a.linear, out_, l);
       diagonal = PutSide(a, a_, l, nullptr, out_ + 3);
       diagonal = diagonal + PutSide(b, b_, l, nullptr, out_ + 6);
     } else {
@@ -143,6 +143,7 @@ class JointPacker {
   Line* out_;
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle
+  Line scale_;             ///< of PairForm::kContact, see PutPair()
   Line damping_;
   Line opposite_, second_moves_;        ///< 1 where that is so, else 0
   Line number_[kJointNumbers], start_;  ///< of the row

@@ -135,8 +135,13 @@ HWY_INLINE bool PackLanes(const SourceRows& rows, const BodyLines& body_a, const
   const auto fits = hn::And(hn::And(target_fits, hn::Le(diagonal, hn::Set(d, kMost))),
                             hn::Or(hn::Ge(diagonal, hn::Set(d, kLeast)), hn::Eq(diagonal, zero)));
 
-  const V* const head = form == PairForm::kContact ? a.j : g_a;
-  for (int k = 0; k < 3; ++k) Put(head[k], out++, lane);
+  if constexpr (form == PairForm::kContact) {
+    const V s_a = At(body_a.linear[0], lane), s_b = At(body_b.linear[0], lane);
+    const V r = hn::Sqrt(hn::Add(hn::Mul(s_a, s_a), hn::Mul(s_b, s_b)));
+    for (int k = 0; k < 3; ++k) Put(hn::Mul(r, a.j[k]), out++, lane);
+  } else {
+    for (int k = 0; k < 3; ++k) Put(g_a[k], out++, lane);
+  }
   for (int k = 3; k < 6; ++k) Put(g_a[k], out++, lane);
   if constexpr (form == PairForm::kJoint) {
     for (int k = 0; k < 3; ++k) Put(g_b[k], out++, lane);

@@ -94,10 +94,7 @@ void FillRow(int block, int index, int lane, Random* random, PairScene* scene) {
     const bool linear = i / 3 == 0 || (form == PairForm::kJoint && i / 3 == 2);
     const float g = row.angular && linear ? 0 : random->Signed();
     view.g[i].lane[lane] = g;
-    const bool shared = form == PairForm::kContact && linear;
-    const float s_a = shared ? scene->PairOf(block)[0].lane[lane] : 1;
-    const float s_b = shared ? scene->PairOf(block)[1].lane[lane] : 0;
-    d += (s_a * s_a + s_b * s_b) * g * g;
+    d += g * g;
   }
   if (row.soft) {
     const float compliance = random->Uniform(0, 1);
@@ -207,8 +204,10 @@ PairScene RandomScene(const SceneSpec& spec) {
     const int block = static_cast<int>(i);
     for (int lane = 0; lane < scene.blocks[i].lanes; ++lane) {
       if (scene.blocks[i].form == PairForm::kContact) {
-        scene.PairOf(block)[0].lane[lane] = random.Uniform(0.3f, 1.5f);
-        scene.PairOf(block)[1].lane[lane] = random.Uniform(0.3f, 1.5f);
+        const float s_a = random.Uniform(0.3f, 1.5f), s_b = random.Uniform(0.3f, 1.5f);
+        const float r = std::sqrt(s_a * s_a + s_b * s_b);
+        scene.PairOf(block)[0].lane[lane] = s_a / r;
+        scene.PairOf(block)[1].lane[lane] = s_b / r;
       }
       for (int row = 0; row < scene.blocks[i].row_count; ++row) {
         FillRow(block, row, lane, &random, &scene);

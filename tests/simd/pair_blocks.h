@@ -49,7 +49,7 @@ struct PairScene {
 
   void Run(PairKernels::Kernel kernel);
 
-  /// s_a and s_b. @pre the block is of form kContact
+  /// c_a and c_b. @pre the block is of form kContact
   Line* PairOf(int block) { return data.data() + blocks[block].data; }
   RowView View(int block, int row);
   float& X(int block, int row, int lane) { return x[blocks[block].x + row].lane[lane]; }

@@ -55,7 +55,7 @@ Vector12 Velocities(PairScene* scene, int lane) {
   return u;
 }
 
-/// G = (g_a, g_b), where contacts store n, the angular parts, and s_a, s_b for all rows.
+/// G = (g_a, g_b), where contacts store r n, the angular parts, and c_a, c_b for all rows.
 Vector12 Jacobian(PairScene* scene, int row, int lane) {
   const Line* const line = scene->View(0, row).g;
   Vector12 g = {};
@@ -179,7 +179,7 @@ void Measure(Lane* lane) {
 ///
 /// A row makes about 16 roundings, each of at most half a unit in the last place of numbers of
 /// lane.size: w (the products, four levels of the sum, target, compliance), the step to x and the
-/// change of x, u, and what forms of pairs do once (relative velocity, s_a^2 + s_b^2, shares). Here
+/// change of x, u, and what forms of pairs do once (relative velocity, shares). Here
 /// they all add up. What earlier rows were off by does not grow: relaxing a row takes from u a part
 /// of what u has along G, at most twice that, and clamping makes the part smaller.
 double RoundingError(const Lane& lane) {

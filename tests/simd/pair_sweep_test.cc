@@ -245,22 +245,24 @@ TEST_P(PairKernelsOf, ContactsKeepTheMomentum) {
     SceneSpec spec;
     spec.blocks = {{PairForm::kContact, Manifold({.rolling_rows = 1, .relaxed = true})}};
     PairScene scene = RandomScene(spec);
-    for (int i = 0; unit_mass && i < 2 * kLanes; ++i) scene.PairOf(0)[i % 2].lane[i / 2] = 1;
+    for (int i = 0; unit_mass && i < 2 * kLanes; ++i) {
+      scene.PairOf(0)[i % 2].lane[i / 2] = std::sqrt(0.5f);
+    }
     for (scene.sweep = 0; scene.sweep < 10; ++scene.sweep) {
       PairScene before = scene;
       scene.Run(kernels().sweep);
       for (int lane = 0; lane < kLanes; ++lane) {
-        // momentum is m v = u / s. Its change is s / k times one number for both bodies: two
-        // roundings of the change and one of the sum, each of at most half a unit in the last
-        // place; the rounding of the bound itself is in the 2 %.
-        const double s_a = scene.PairOf(0)[0].lane[lane], s_b = scene.PairOf(0)[1].lane[lane];
+        // momentum is m v = u / s, and c is s by a factor that both bodies share. Its change is c
+        // times one number for both: a rounding of the product and one of the sum, each of at most
+        // half a unit in the last place; the rounding of the bound itself is in the 2 %.
+        const double c_a = scene.PairOf(0)[0].lane[lane], c_b = scene.PairOf(0)[1].lane[lane];
         for (const int i : {0, 1, 2}) {
           const double a = scene.BodyA(0, lane).u[i], b = scene.BodyB(0, lane).u[i];
           const double moved_a = a - before.BodyA(0, lane).u[i];
           const double moved_b = b - before.BodyB(0, lane).u[i];
-          const double size = (std::abs(a) + 2 * std::abs(moved_a)) / s_a +
-                              (std::abs(b) + 2 * std::abs(moved_b)) / s_b;
-          EXPECT_NEAR(moved_a / s_a, -moved_b / s_b, 1.02 * 0x1p-24 * size);
+          const double size = (std::abs(a) + 2 * std::abs(moved_a)) / c_a +
+                              (std::abs(b) + 2 * std::abs(moved_b)) / c_b;
+          EXPECT_NEAR(moved_a / c_a, -moved_b / c_b, 1.02 * 0x1p-24 * size);
         }
       }
     }

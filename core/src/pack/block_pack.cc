@@ -179,8 +179,10 @@ class OneBlock {
     }
     if (block_.form != PairForm::kContact) return;
     for (int lane = 0; lane < kLanes; ++lane) {
-      line_[0].lane[lane] = static_cast<float>(a_.linear[0].lane[lane]);
-      line_[1].lane[lane] = static_cast<float>(b_.linear[0].lane[lane]);
+      const double s_a = a_.linear[0].lane[lane], s_b = b_.linear[0].lane[lane];
+      const double r = std::sqrt(s_a * s_a + s_b * s_b);
+      line_[0].lane[lane] = static_cast<float>(r > 0 ? s_a / r : 0);
+      line_[1].lane[lane] = static_cast<float>(r > 0 ? s_b / r : 0);
     }
     line_ += simd::PairLines(block_.form);
   }

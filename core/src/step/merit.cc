@@ -88,19 +88,21 @@ void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
   const Plan& plan = frame->plan();
   const BlockData& data = frame->blocks();
   const simd::LaneKernels& kernels = frame->lane_kernels();
-  const auto lanes = static_cast<size_t>(group.blocks) * kLanes;
-  if (gains_.size() < lanes) gains_.resize(lanes);
-  const size_t squares = lanes + static_cast<size_t>(group.slots);
-  if (squares_.size() < squares) squares_.resize(squares);
+  const auto most_lanes = static_cast<size_t>(group.blocks) * kLanes;
+  const size_t most_squares = most_lanes + static_cast<size_t>(group.slots);
+  if (gains_.size() < most_lanes) gains_.resize(most_lanes);
+  if (squares_.size() < most_squares) squares_.resize(most_squares);
   for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
     merits_[i] = {};
   }
   simd::LaneGains of_block;
+  size_t lanes = 0;
   for (int b = 0; b < group.blocks; ++b) {
     const simd::PairBlock& block = plan.blocks()[group.first_block + b];
     kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x, &of_block);
-    std::copy_n(of_block.gain, kLanes, gains_.data() + b * kLanes);
-    std::copy_n(of_block.square, kLanes, squares_.data() + b * kLanes);
+    std::copy_n(of_block.gain, block.lanes, gains_.data() + lanes);
+    std::copy_n(of_block.square, block.lanes, squares_.data() + lanes);
+    lanes += static_cast<size_t>(block.lanes);
     const std::uint32_t without = WithoutZero(block, data);
     for (int l = 0; l < block.lanes && without != 0; ++l) {
       if ((without >> l & 1) == 0) continue;
@@ -109,9 +111,10 @@ void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
   }
   kernels.find_squares(data.bodies.data() + group.first_slot, group.slots, squares_.data() + lanes);
   if (group.islands == 1) {
-    AddWhole(kernels, lanes, squares, plan.islands_of_groups()[group.first_island]);
+    AddWhole(kernels, lanes, lanes + static_cast<size_t>(group.slots),
+             plan.islands_of_groups()[group.first_island]);
   } else {
-    AddShared(plan, group);
+    AddShared(plan, group, lanes);
   }
 }
 
@@ -126,16 +129,15 @@ void IslandMerits::AddWhole(const simd::LaneKernels& kernels, size_t gains, size
   merits_[island].square = sum(squares_, squares);
 }
 
-void IslandMerits::AddShared(const Plan& plan, const Group& group) {
+void IslandMerits::AddShared(const Plan& plan, const Group& group, size_t lanes) {
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
-  const size_t lanes = static_cast<size_t>(group.blocks) * kLanes;
   // add(island, gain, square) for all lanes and bodies
   const auto for_parts = [&](const auto& add) {
+    size_t at = 0;
     for (int b = 0; b < group.blocks; ++b) {
       const int* const of_lane = plan.islands_of(group.first_block + b);
       const int used = plan.blocks()[group.first_block + b].lanes;
-      const size_t first = static_cast<size_t>(b) * kLanes;
-      for (int l = 0; l < used; ++l) add(of_lane[l], gains_[first + l], squares_[first + l]);
+      for (int l = 0; l < used; ++l, ++at) add(of_lane[l], gains_[at], squares_[at]);
     }
     for (int slot = 0; slot < group.slots; ++slot) {
       const int body = plan.body_of_slot()[group.first_slot + slot];

@@ -68,9 +68,10 @@ class IslandMerits {
 
  private:
   void FindOfGroup(BlockFrame* frame, const Group& group);
-  // Sums of numbers that do not depend on their order. Of a group of one island, and of several.
+  // Sums of numbers that do not depend on their order. Of a group of one island, and of several;
+  // gains and squares are those of its lanes, and after them squares of bodies.
   void AddWhole(const simd::LaneKernels& kernels, size_t gains, size_t squares, int island);
-  void AddShared(const Plan& plan, const Group& group);
+  void AddShared(const Plan& plan, const Group& group, size_t lanes);
 
   std::vector<Merit> merits_;
   /// Bring the largest number of a sum to so many bits, by island.

@@ -142,7 +142,7 @@ void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
 void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const {
   const Plan& plan = frame_->plan();
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
-  if (islands.size() == 1) {
+  if (islands.size() == 1 && !HasFewLanes(group)) {
     residuals[islands[0]] = ErrorOfGroup(group);
     return;
   }
@@ -166,6 +166,15 @@ void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residu
   for (int island : islands) {
     residuals[island].energy = std::sqrt(residuals[island].energy / scales[island]);
   }
+}
+
+bool BlockSweeps::HasFewLanes(const Group& group) const {
+  int lanes = 0;
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    lanes += frame_->plan().blocks()[b].lanes;
+    if (lanes > simd::kLanes) return false;
+  }
+  return true;
 }
 
 Residual BlockSweeps::ErrorOfGroup(const Group& group) const {

@@ -47,7 +47,9 @@ class BlockSweeps {
   /// Returns how many sweeps were made.
   int Run(Pass* pass, std::span<GroupSweeps> groups);
   void MeasureAt(double price, std::span<const GroupSweeps> groups);
-  /// The same of a group that is one island.
+  /// A look at each of its lanes takes less time than one at whole lines.
+  bool HasFewLanes(const Group& group) const;
+  /// Errors of a group that is one island.
   Residual ErrorOfGroup(const Group& group) const;
   /// function(errors of a block, block, lane)
   template <class Function>

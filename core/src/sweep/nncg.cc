@@ -48,7 +48,7 @@ class Nncg::Pass final : public StagedWork {
     for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
       const simd::PairBlock& block = plan_.blocks()[b];
       kernels_.move_lines(
-          &nncg_.WayOf(0), plan_.islands_of(b), block.row_count,
+          &nncg_.WayOf(0), plan_.islands_of(b), block.lanes, block.row_count,
           {&now_.x[block.x], &nncg_.last_.x[block.x], &nncg_.direction_.x[block.x]});
     }
   }

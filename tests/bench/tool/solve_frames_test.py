@@ -113,9 +113,12 @@ class FramesTest(cli_test.CairnTest):
             residuals.append([s["residual"]["max"] for s in result["problems"][0]["solvers"]])
             self.assertEqual([s["sweeps"] for s in result["problems"][0]["solvers"]],
                              2 * [int(sweeps)])
-        for less, more in zip(residuals, residuals[1:]):
-            for before, after in zip(less, more):
-                self.assertLess(after, before)
+        (few, bullet_few), (some, bullet_some), (many, bullet_many) = residuals
+        self.assertLess(some, few)
+        self.assertLess(many, some)
+        # Bullet's iteration may come to a halt where friction follows what it bounds
+        self.assertLess(bullet_some, bullet_few)
+        self.assertLessEqual(bullet_many, bullet_some)
 
     def test_from_zero_it_is_another_start(self):
         path = self.record("tower", 40)

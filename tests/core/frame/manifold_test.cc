@@ -95,7 +95,8 @@ std::vector<double> LinesOf(const BlockFrame& frame, const Row& row, const Pair&
 
   std::vector<double> lines = a;
   if (pair.form == simd::PairForm::kContact) {
-    for (int k = 0; k < 3; ++k) lines[k] = (straight ? row.linear_a : row.linear_b)[k];
+    const double r = std::hypot(body(pair.a).linear[0], body(pair.b).linear[0]);
+    for (int k = 0; k < 3; ++k) lines[k] = r * (straight ? row.linear_a : row.linear_b)[k];
     lines.insert(lines.end(), b.begin() + 3, b.end());
   }
   if (pair.form == simd::PairForm::kJoint) lines.insert(lines.end(), b.begin(), b.end());
