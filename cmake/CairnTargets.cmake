@@ -4,6 +4,19 @@
 add_library(cairn_source_root INTERFACE)
 target_include_directories(cairn_source_root INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
+# Makes targets of others, which were found in this folder, known in all of them: a parent project that adds this
+# project links our targets without finding theirs.
+function(cairn_global)
+  foreach(target ${ARGN})
+    if(TARGET ${target})
+      get_target_property(imported ${target} IMPORTED)
+      if(imported)
+        set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 # Warnings, no fused multiply-add behind our back (results must not depend on the target), sanitizers.
 # Nobody replaces single functions of ours: else code for shared libraries could not inline them.
 function(cairn_strict target)
@@ -11,6 +24,10 @@ function(cairn_strict target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
                                            -fno-semantic-interposition
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+    # Eigen would fuse multiplications and additions here, as it cannot on x86 without flags.
+    target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA)
+  endif()
   if(CAIRN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${CAIRN_SANITIZE} -fno-sanitize-recover=all
                                              -fno-omit-frame-pointer)
