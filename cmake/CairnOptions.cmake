@@ -33,6 +33,8 @@ option(CAIRN_DART "Build examples/dart, Cairn as a solver of DART (needs libdart
 option(CAIRN_INSTALL "Generate the install target" ${PROJECT_IS_TOP_LEVEL})
 option(CAIRN_FUZZ "Build the fuzz targets (needs clang)" OFF)
 option(CAIRN_WERROR "Treat warnings as errors" OFF)
+option(CAIRN_TBB "Threads from oneTBB; else from the standard library" ON)
+option(CAIRN_FETCH_DEPENDENCIES "Download Highway where it is not found" OFF)
 # For builds from nothing that are not to be timed. ccache does not keep files compiled so, and an include of others
 # that is missing is not seen.
 option(CAIRN_QUICK_BUILD "Precompile headers of others, and optimise tool and tests less" OFF)

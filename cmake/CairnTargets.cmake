@@ -4,6 +4,19 @@
 add_library(cairn_source_root INTERFACE)
 target_include_directories(cairn_source_root INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
+# Makes targets of others, which were found in this folder, known in all of them: a parent project that adds this
+# project links our targets without finding theirs.
+function(cairn_global)
+  foreach(target ${ARGN})
+    if(TARGET ${target})
+      get_target_property(imported ${target} IMPORTED)
+      if(imported)
+        set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 # Warnings, no fused multiply-add behind our back (results must not depend on the target), sanitizers.
 # Nobody replaces single functions of ours: else code for shared libraries could not inline them.
 function(cairn_strict target)
@@ -11,6 +24,10 @@ function(cairn_strict target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
                                            -fno-semantic-interposition
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+    # Eigen would fuse multiplications and additions here, as it cannot on x86 without flags.
+    target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA)
+  endif()
   if(CAIRN_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${CAIRN_SANITIZE} -fno-sanitize-recover=all
                                              -fno-omit-frame-pointer)
@@ -46,6 +63,24 @@ function(cairn_use_headers target name)
   endif()
 endfunction()
 
+set(CAIRN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+
+# A shared library for users shows what its public headers declare. One that is built with tests shows all, as they test
+# what is inside.
+set(CAIRN_HIDES OFF)
+if(BUILD_SHARED_LIBS AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CAIRN_TESTS)
+  set(CAIRN_HIDES ON)
+endif()
+function(cairn_hide target file)
+  if(NOT CAIRN_HIDES)
+    return()
+  endif()
+  string(REGEX REPLACE "-float64$" "" map ${file})
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/exports/${map}.map.in ${CMAKE_CURRENT_BINARY_DIR}/${file}.map @ONLY)
+  target_link_options(${target} PRIVATE LINKER:--version-script=${CMAKE_CURRENT_BINARY_DIR}/${file}.map)
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/${file}.map)
+endfunction()
+
 # A library of the product: cairn_library(target alias sources...) makes <target>, cairn::<alias> and the
 # file libcairn or libcairn-<alias>.
 function(cairn_library target alias)
@@ -57,9 +92,9 @@ function(cairn_library target alias)
   endif()
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${alias} OUTPUT_NAME ${file} POSITION_INDEPENDENT_CODE ON
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
-    INSTALL_RPATH "$ORIGIN")
+    VERSION ${PROJECT_VERSION} SOVERSION ${CAIRN_SOVERSION} DEFINE_SYMBOL "" INSTALL_RPATH "$ORIGIN")
   cairn_strict(${target})
+  cairn_hide(${target} ${file})
 endfunction()
 
 # Builds a target against Bullet in one precision (float or float64). Everything that links the target

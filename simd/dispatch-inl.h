@@ -21,10 +21,17 @@
 #else
 #define CAIRN_IF_AVX512(TARGET, NAME, OTHER) OTHER
 #endif
+#if HWY_TARGETS & HWY_NEON
+#define CAIRN_IF_NEON(TARGET, NAME, OTHER) ((TARGET) == Target::kNeon ? N_NEON::NAME : OTHER)
+#else
+#define CAIRN_IF_NEON(TARGET, NAME, OTHER) OTHER
+#endif
 
 /// NAME in the namespace of a target, OTHER for Target::kScalar.
 #define CAIRN_DISPATCH_OR(TARGET, NAME, OTHER) \
-  CAIRN_IF_AVX512(TARGET, NAME, CAIRN_IF_AVX2(TARGET, NAME, CAIRN_IF_SSE4(TARGET, NAME, OTHER)))
+  CAIRN_IF_AVX512(TARGET, NAME,                \
+                  CAIRN_IF_AVX2(TARGET, NAME,  \
+                                CAIRN_IF_SSE4(TARGET, NAME, CAIRN_IF_NEON(TARGET, NAME, OTHER))))
 
 /// The same; for Target::kScalar what every CPU runs that this program was compiled for: plain C++
 /// unless flags say more.

@@ -19,11 +19,12 @@ struct Entry {
 
 // In the order of Target. Highway counts AVX-512 as AVX3, and knows a scalar bit that we do not ask
 // for, because scalar code needs no support.
-constexpr std::array<Entry, 4> kEntries = {{
+constexpr std::array<Entry, 5> kEntries = {{
     {Target::kScalar, "scalar", 0},
     {Target::kSse4, "sse4", HWY_SSE4},
     {Target::kAvx2, "avx2", HWY_AVX2},
     {Target::kAvx512, "avx512", HWY_AVX3},
+    {Target::kNeon, "neon", HWY_NEON},
 }};
 
 }  // namespace
@@ -38,9 +39,11 @@ std::optional<Target> FindTarget(std::string_view name) {
 }
 
 std::vector<Target> SupportedTargets() {
-  // HWY_TARGETS are the targets this compiler builds, SupportedTargets() those this CPU runs.
+  // HWY_TARGETS are the targets this compiler builds, SupportedTargets() those this CPU runs, and
+  // what all code is compiled for runs in any case: Highway counts NEON without AES as none.
   // Asking the CPU takes microseconds, and tens of them in a virtual machine.
-  static const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+  static const std::int64_t usable =
+      (hwy::SupportedTargets() | static_cast<std::int64_t>(HWY_STATIC_TARGET)) & HWY_TARGETS;
   std::vector<Target> targets;
   for (const Entry& entry : kEntries) {
     if (entry.target == Target::kScalar || (usable & entry.highway) != 0) {

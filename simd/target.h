@@ -8,10 +8,11 @@
 
 namespace cairn::simd {
 
-/// An instruction set that kernels are compiled for, worst to best.
-enum class Target { kScalar, kSse4, kAvx2, kAvx512 };
+/// An instruction set that kernels are compiled for, worst to best. No CPU has both NEON and those
+/// before it.
+enum class Target { kScalar, kSse4, kAvx2, kAvx512, kNeon };
 
-/// "scalar", "sse4", "avx2" or "avx512".
+/// "scalar", "sse4", "avx2", "avx512" or "neon".
 std::string_view TargetName(Target target);
 
 /// The target of that name, if there is one.

@@ -1,5 +1,5 @@
 # Writes BUILD/page_parts.cc from SOURCE/style.css and, where NPM is given and works, the bundle of the scripts.
-cmake_minimum_required(VERSION 3.25)
+cmake_minimum_required(VERSION 3.22)
 
 # Sets `failure` if the step fails.
 function(run_step what)

@@ -3,28 +3,15 @@
 
 #include <algorithm>
 
+#include "scenes/small_scenes.h"
 #include "support/names.h"
 
 namespace cairn::cli {
-namespace {
-
-struct SmallWorld {
-  const char* scene;
-  int size;
-};
-
-constexpr SmallWorld kSmallWorlds[] = {
-    {"incline", 1},       {"seesaw", 1},        {"door", 1},       {"pendulum", 5}, {"car", 1},
-    {"growing-tower", 7}, {"tower", 10},        {"stairs", 1},     {"arch", 11},    {"slab", 6},
-    {"dominoes", 100},    {"wrecking-ball", 6}, {"pyramid3d", 10},
-};
-
-}  // namespace
 
 std::vector<SceneChoice> SmallWorlds() {
   std::vector<SceneChoice> worlds;
-  for (const SmallWorld& world : kSmallWorlds) {
-    const std::string name = world.scene;
+  for (const bench::SmallScene& world : bench::kSmallScenes) {
+    const std::string name = world.name;
     worlds.push_back(ParseScenes({&name, 1}, std::to_string(world.size), 0).front());
   }
   return worlds;

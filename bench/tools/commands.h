@@ -19,6 +19,13 @@ Command AddWorldsCommand(CLI::App* app);
 /// about a second. Writes the same as JSON to `json_path` unless that is empty.
 void Doctor(const std::string& json_path);
 
+/// `cairn doctor --verify`: whether this machine gives the answers of the golden files, to the bit;
+/// of the other precision, too, if its program is there. Takes ten seconds. @return kFine, or
+/// kCheckFailed and where they first differ
+int DoctorVerify();
+/// The same of this precision alone, in one line.
+int DoctorVerifyWorlds();
+
 /// `cairn doctor --bullet`: one line on the Bullet that this program runs with.
 void DoctorBullet();
 

@@ -5,13 +5,16 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <vector>
 
 #include "simd/target.h"
+#include "support/failure.h"
 #include "support/machine/build_info.h"
 #include "support/machine/machine.h"
 #include "support/output_file.h"
 #include "tools/precision.h"
+#include "verify/world_answers.h"
 
 namespace cairn::cli {
 namespace {
@@ -83,6 +86,58 @@ void Doctor(const std::string& json_path) {
   }
   if (!json_path.empty()) WriteFile(json_path, json.dump(1) + "\n");
 }
+
+namespace {
+
+/// Says whether answers are the golden ones, and if not, where not.
+bool Verify(std::string_view what, std::span<const verify::Answer> golden,
+            std::span<const verify::Answer> now) {
+  const std::vector<verify::Difference> differences = verify::Compare(golden, now);
+  if (differences.empty()) {
+    fmt::print("{:<14} {} of {} equal\n", what, now.size(), now.size());
+    return true;
+  }
+  fmt::print("{:<14} {} differences\n", what, differences.size());
+  for (const verify::Difference& difference : differences) {
+    fmt::print("  {}\n", verify::Describe(difference));
+  }
+  return false;
+}
+
+bool VerifyWorlds() {
+  return Verify("Bullet, " + OwnPrecision(), verify::GoldenWorldAnswers(), verify::WorldAnswers());
+}
+
+/// True if it is not there.
+bool VerifySibling() {
+  const std::string other = OwnPrecision() == "float" ? "float64" : "float";
+  const auto sibling = FindSibling(other);
+  if (!sibling) return true;
+  const std::string line = FirstLineOf(*sibling, "doctor --verify-worlds");
+  const std::string advice = OwnPrecision() == "float" ? "cairn --float64 doctor --verify"
+                                                       : "cairn --precision float doctor --verify";
+  fmt::print("{}\n",
+             line.empty() ? fmt::format("Bullet, {}: differs; see {}", other, advice) : line);
+  return !line.empty();
+}
+
+}  // namespace
+
+int DoctorVerify() {
+  const bool core = Verify("core", verify::GoldenCoreAnswers(), verify::CoreAnswers());
+  const bool worlds = VerifyWorlds(), sibling = VerifySibling();
+  if (core && worlds && sibling) {
+    fmt::print("verdict        this machine gives the golden answers, to the bit\n");
+    return kFine;
+  }
+  fmt::print("verdict        {}\n",
+             core ? "Cairn gives the golden answers; worlds differ by Bullet, or by the C library "
+                    "that it takes sines of"
+                  : "Cairn itself gives other answers here: please report this machine");
+  return kCheckFailed;
+}
+
+int DoctorVerifyWorlds() { return VerifyWorlds() ? kFine : kCheckFailed; }
 
 void DoctorBullet() { fmt::print("{}\n", DescribeBullet(DescribeBuild())); }
 

@@ -307,7 +307,8 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
 }
 
 void ConstraintSolver::Analyse(const Group& group, int first_companion) {
-  m_leastSquaresResidual = static_cast<btScalar>(std::pow(impl_->report.residual_max, 2));
+  const double residual = impl_->report.residual_max;
+  m_leastSquaresResidual = static_cast<btScalar>(residual * residual);
   m_analyticsData.m_numSolverCalls++;
   m_analyticsData.m_numIterationsUsed = impl_->report.sweeps;
   m_analyticsData.m_islandId = first_companion;

@@ -54,6 +54,8 @@ MAY_INCLUDE = {
     "bench/worlds": ("bench/scenes/", "bench/measure/", "bench/worlds/", "bullet_adapter/include/",
                      "core/include/", "core/src/problem/"),
     "bench/campaign": ("bench/support/", "bench/worlds/", "bench/campaign/", "simd/"),
+    "bench/verify": ("bench/scenes/", "bench/verify/", "bullet_adapter/include/", "core/include/",
+                     "core/lcp/include/"),
     "bench/contestants": BELOW_RUN[:4] + ("bench/contestants/",),
     "bench/effort": BELOW_RUN + ("bench/effort/", "simd/"),
     "bench/replay": ("bench/scenes/", "bench/replay/"),

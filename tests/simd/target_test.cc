@@ -23,7 +23,8 @@ TEST(TargetTest, ScalarIsAlwaysSupportedAndTargetsAscend) {
 }
 
 TEST(TargetTest, EveryTargetIsFoundByItsName) {
-  for (Target target : {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx512}) {
+  for (Target target :
+       {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx512, Target::kNeon}) {
     EXPECT_EQ(FindTarget(TargetName(target)), target);
   }
   EXPECT_EQ(FindTarget("AVX2"), std::nullopt);

@@ -31,10 +31,23 @@ Residual MeasureResidual(const PackedIsland& island, const IslandState& state) {
   return residual;
 }
 
+namespace {
+
+/// The root of a^2 + b^2 for numbers >= 0, also where the squares are out of range; to the bit the
+/// same with every C library.
+double RootOfSquares(double a, double b) {
+  const double larger = std::max(a, b), smaller = std::min(a, b);
+  if (!(larger > 0) || std::isinf(larger)) return larger;
+  const double ratio = smaller / larger;
+  return larger * std::sqrt(1 + ratio * ratio);
+}
+
+}  // namespace
+
 void Accumulate(const Residual& part, Report* report) {
   report->residual_max = std::max(report->residual_max, part.max);
   report->residual_angular = std::max(report->residual_angular, part.max_angular);
-  report->residual_energy = std::hypot(report->residual_energy, part.energy);
+  report->residual_energy = RootOfSquares(report->residual_energy, part.energy);
 }
 
 namespace {

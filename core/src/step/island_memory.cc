@@ -2,7 +2,6 @@
 #include "step/island_memory.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace cairn {
@@ -33,7 +32,11 @@ constexpr int kGuardPause = 8;
 constexpr int kMostGuards = 4;
 
 /// Level 0: as set. Level 1 condenses impulses; each further one is ten times softer, too.
-double SofteningOf(int level) { return level < 2 ? 1 : std::pow(10.0, level - 1); }
+double SofteningOf(int level) {
+  double softening = 1;
+  for (int above = 1; above < level; ++above) softening *= 10;
+  return softening;
+}
 
 }  // namespace
 

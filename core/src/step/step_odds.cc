@@ -2,8 +2,9 @@
 #include "step/step_odds.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "runtime/logarithm.h"
 
 namespace cairn {
 namespace {
@@ -39,13 +40,13 @@ void Learn(double measured, bool* known, double* mean) {
 double StepOdds::PricesLeft(double gain) {
   // a step has to cut more than the power() of left / (left - price), what sweeps do meanwhile
   if (gain <= 0) return std::numeric_limits<double>::infinity();
-  return -1 / std::expm1(-gain);
+  return -1 / ExpMinusOne(-gain);
 }
 
 double StepOdds::PowerOf(int from, int to, double share) {
   if (from <= 0 || to <= from) return 0;
   if (!(share > 0)) return std::numeric_limits<double>::infinity();
-  return -std::log(share) / std::log(static_cast<double>(to) / from);
+  return -Log(share) / Log(static_cast<double>(to) / from);
 }
 
 void StepOdds::LearnSweeps(double power) {
@@ -55,7 +56,7 @@ void StepOdds::LearnSweeps(double power) {
 
 void StepOdds::LearnStep(int steps, double share) {
   Cut& cut = steps == 0 ? first_ : later_;
-  Learn(std::clamp(-std::log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
+  Learn(std::clamp(-Log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
 }
 
 void StepOdds::LearnGains(double with_step, double alone, bool more) {

@@ -25,7 +25,7 @@ extern "C" {
 #endif
 
 #define CAIRN_VERSION_MAJOR 0
-#define CAIRN_VERSION_MINOR 1
+#define CAIRN_VERSION_MINOR 2
 #define CAIRN_VERSION_PATCH 0
 
 /* What does not move, as a body. What you move yourself is a body with invMass 0 and a velocity. */

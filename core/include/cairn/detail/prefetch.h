@@ -4,7 +4,20 @@
 
 #include <cstddef>
 
+#if !defined(__GNUC__) && defined(_M_X64)
+#include <xmmintrin.h>
+#endif
+
 namespace cairn {
+
+/// Asks for the cache line of an address, any address, before it is read.
+inline void PrefetchLine([[maybe_unused]] const char* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#elif defined(_M_X64)
+  _mm_prefetch(address, _MM_HINT_T0);
+#endif
+}
 
 /// Asks for the cache lines of @p size bytes [1, ...) from @p begin on, before they are read. Any
 /// address will do.
@@ -13,10 +26,12 @@ namespace cairn {
 inline void Prefetch(const void* begin, std::size_t size = 1) {
   constexpr std::size_t kLine = 64;
   const char* const first = static_cast<const char*>(begin);
+#if defined(__GNUC__)
   asm volatile("");
-  for (std::size_t at = 0; at < size; at += kLine) __builtin_prefetch(first + at);
+#endif
+  for (std::size_t at = 0; at < size; at += kLine) PrefetchLine(first + at);
   // what does not begin a line may end in one more
-  if (size > 1) __builtin_prefetch(first + size - 1);
+  if (size > 1) PrefetchLine(first + size - 1);
 }
 
 }  // namespace cairn

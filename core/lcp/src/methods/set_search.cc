@@ -2,13 +2,13 @@
 #include "methods/set_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "methods/barrier.h"
 #include "methods/face.h"
 #include "methods/matrix_pgs.h"
+#include "runtime/logarithm.h"
 
 namespace cairn::lcp {
 namespace {
@@ -100,7 +100,7 @@ void SetSearch::SweepWhileItPays(double moved) {
     const double before = std::exchange(moved, state_->SweepTimes(settings.k_gs));
     if (state_->done() || !(moved < before)) return;
     if (moved <= settings.tolerance && state_->Judge() <= settings.tolerance) return;
-    const double batches = std::log(moved / settings.tolerance) / std::log(before / moved);
+    const double batches = Log(moved / settings.tolerance) / Log(before / moved);
     if (!(batches * settings.k_gs < factor_sweeps_)) return;
   }
 }
