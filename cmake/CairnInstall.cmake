@@ -75,3 +75,20 @@ install(FILES ${PROJECT_BINARY_DIR}/cairnConfig.cmake ${PROJECT_BINARY_DIR}/cair
   DESTINATION ${cairn_package_dir})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Archives: cpack -G TGZ, ZIP for Windows, DEB for one package of all. Debian's own four: packaging/build-debs.sh.
+if(PROJECT_IS_TOP_LEVEL)
+  set(CPACK_PACKAGE_NAME cairn)
+  set(CPACK_PACKAGE_CONTACT "The Cairn authors")
+  set(CPACK_PACKAGE_VENDOR "The Cairn authors")
+  set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev, libhwy-dev, libtbb-dev")
+  set(CPACK_GENERATOR TGZ)
+  if(WIN32)
+    set(CPACK_GENERATOR ZIP)
+  endif()
+  include(CPack)
+endif()

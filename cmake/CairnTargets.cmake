@@ -21,6 +21,8 @@ endfunction()
 # Nobody replaces single functions of ours: else code for shared libraries could not inline them.
 function(cairn_strict target)
   target_compile_features(${target} PUBLIC cxx_std_20)
+  # Files reuse names of helpers, and kernels include themselves, once per target.
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
                                            -fno-semantic-interposition
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)

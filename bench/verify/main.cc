@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Says whether this machine gives the answers of the golden files, or prints its own:
-//   cairn_answers [--print]
+//   cairn_answers [--print | --target]
+// The target is the instruction set that kernels use here.
 #include <cstdio>
 #include <cstring>
+#include <string>
 #include <vector>
 
+#include "simd/target.h"
 #include "verify/answers.h"
 #ifdef CAIRN_VERIFY_WORLDS
 #include "verify/world_answers.h"
@@ -12,6 +15,10 @@
 
 int main(int count, char** arguments) {
   using namespace cairn::verify;
+  if (count == 2 && std::strcmp(arguments[1], "--target") == 0) {
+    std::printf("%s\n", std::string(TargetName(cairn::simd::ChooseTarget().target)).c_str());
+    return 0;
+  }
 #ifdef CAIRN_VERIFY_WORLDS
   const std::vector<Answer> now = WorldAnswers(), golden = GoldenWorldAnswers();
 #else

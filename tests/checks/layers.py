@@ -55,7 +55,7 @@ MAY_INCLUDE = {
                      "core/include/", "core/src/problem/"),
     "bench/campaign": ("bench/support/", "bench/worlds/", "bench/campaign/", "simd/"),
     "bench/verify": ("bench/scenes/", "bench/verify/", "bullet_adapter/include/", "core/include/",
-                     "core/lcp/include/"),
+                     "core/lcp/include/", "simd/"),
     "bench/contestants": BELOW_RUN[:4] + ("bench/contestants/",),
     "bench/effort": BELOW_RUN + ("bench/effort/", "simd/"),
     "bench/replay": ("bench/scenes/", "bench/replay/"),

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "simd/target.h"
+#include "tests/simd/environment.h"
 
 namespace cairn::test {
 
@@ -13,22 +14,14 @@ class AskFor {
  public:
   explicit AskFor(simd::Target target) {
     const char* const before = std::getenv("CAIRN_SIMD");
-    was_set_ = before != nullptr;
-    if (was_set_) before_ = before;
-    setenv("CAIRN_SIMD", std::string(simd::TargetName(target)).c_str(), 1);
+    if (before != nullptr) before_ = before;
+    SetVariable("CAIRN_SIMD", std::string(simd::TargetName(target)));
   }
-  ~AskFor() {
-    if (was_set_) {
-      setenv("CAIRN_SIMD", before_.c_str(), 1);
-    } else {
-      unsetenv("CAIRN_SIMD");
-    }
-  }
+  ~AskFor() { SetVariable("CAIRN_SIMD", before_); }
   AskFor(const AskFor&) = delete;
   AskFor& operator=(const AskFor&) = delete;
 
  private:
-  bool was_set_;
   std::string before_;
 };
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "simd/target.h"
 
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/simd/environment.h"
 
 namespace cairn::simd {
 namespace {
@@ -60,9 +61,9 @@ TEST(TargetTest, WhatCannotBeGrantedIsSaidAndTheBestIsChosen) {
 }
 
 TEST(TargetTest, TheEnvironmentVariableIsRead) {
-  ASSERT_EQ(setenv("CAIRN_SIMD", "scalar", 1), 0);
+  test::SetVariable("CAIRN_SIMD", "scalar");
   EXPECT_EQ(ChooseTarget().target, Target::kScalar);
-  ASSERT_EQ(unsetenv("CAIRN_SIMD"), 0);
+  test::SetVariable("CAIRN_SIMD", "");
   EXPECT_EQ(ChooseTarget().target, BestTarget());
 }
 

@@ -24,8 +24,6 @@ using simd::RowShape;
 /// Impulses and friction coefficients beyond this are left to double precision.
 constexpr double kMost = 1e12;
 
-const WhitenedBody kNoBody;
-
 /// J of what is not there.
 constexpr double kNothing[6] = {};
 
@@ -166,16 +164,17 @@ class OneBlock {
 
  private:
   void PutBodies() {
+    const WhitenedBody no_body;
     for (int lane = 0; lane < block_.lanes; ++lane) {
       const Pair& pair = *pairs_[lane];
       rows_[lane] = packer_.plan.rows_of(pair).data();
       Prefetch(&packer_.problem.rows[rows_[lane][0]], sizeof(Row));
-      Put(pair.a != kWorld ? packer_.bodies[pair.a] : kNoBody, lane, &a_);
+      Put(pair.a != kWorld ? packer_.bodies[pair.a] : no_body, lane, &a_);
       if (block_.form != PairForm::kSingle) Put(packer_.bodies[pair.b], lane, &b_);
     }
     for (int lane = block_.lanes; lane < kLanes; ++lane) {
-      Put(kNoBody, lane, &a_);
-      Put(kNoBody, lane, &b_);
+      Put(no_body, lane, &a_);
+      Put(no_body, lane, &b_);
     }
     if (block_.form != PairForm::kContact) return;
     for (int lane = 0; lane < kLanes; ++lane) {

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <memory>
 
-#if __has_include(<unistd.h>)
+#if defined(_WIN32)
+#include <io.h>
+#elif __has_include(<unistd.h>)
 #include <unistd.h>
 #endif
 
@@ -39,7 +41,9 @@ bool IsDevice(const std::string& path) {
 
 bool ToDisk(std::FILE* file) {
   if (std::fflush(file) != 0) return false;
-#if __has_include(<unistd.h>)
+#if defined(_WIN32)
+  return _commit(_fileno(file)) == 0 || errno == EBADF;  // pipes and devices likewise
+#elif __has_include(<unistd.h>)
   // pipes and devices have nothing to wait for
   return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 #else

@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: MIT
+"""Shared libraries show their public interface and nothing else, have their version in their name, and do nothing when
+they are loaded; and names that the last release showed are there: exports.py BUILD [--write], of a build with
+-DBUILD_SHARED_LIBS=ON -DCAIRN_TESTS=OFF. --write keeps the names of this build, in cmake/exports/*.abi (abigail-tools);
+without debug information these are names, not the layout of structs."""
+import glob
+import os
+import re
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+# Names that users may count on, by library; what is of CAIRN_PRIVATE they cannot link by accident.
+SHOWN = {
+    "cairn": r"cairn::(?!simd::|lcp::|\(anonymous)",
+    "cairn-lcp": r"cairn::lcp::",
+    "cairn-bullet": r"(typeinfo( name)?|vtable) for cairn::bullet::|cairn::bullet::",
+    "cairn-bullet-float64": r"(typeinfo( name)?|vtable) for cairn::bullet::|cairn::bullet::",
+    "cairn-c": r"cairn[A-Z]\w+$",
+}
+# At most so many functions.
+MOST = {"cairn": 130, "cairn-lcp": 30, "cairn-bullet": 50, "cairn-bullet-float64": 50, "cairn-c": 40}
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def public_names(path):
+    """Demangled names that are defined, without those of CAIRN_PRIVATE and the names of versions."""
+    lines = [line.split(" ", 2) for line in run("nm", "-DC", "--defined-only", path).splitlines()]
+    names = [fields[2] for fields in lines if fields[1] != "A"]
+    return [re.sub(r"@@?CAIRN_[\d.]+$", "", name) for name in names if not name.endswith("CAIRN_PRIVATE")]
+
+
+def initialisers(path):
+    """Functions that are called when the library is loaded, but for the compiler's own."""
+    size = re.search(r"INIT_ARRAYSZ\)\s+(\d+)", run("readelf", "-dW", path))
+    return int(size.group(1)) // 8 - 1 if size else 0
+
+
+def check(path):
+    library = re.match(r"lib([\w-]+)\.so", os.path.basename(path)).group(1)
+    errors = []
+    names = public_names(path)
+    for name in names:
+        if not re.match(SHOWN[library], name):
+            errors.append(f"{library}: shows {name}")
+    if not 0 < len(names) <= MOST[library]:
+        errors.append(f"{library}: shows {len(names)} names, expected at most {MOST[library]}")
+    if initialisers(path) > 0:
+        errors.append(f"{library}: runs {initialisers(path)} functions when it is loaded")
+    if not re.search(rf"SONAME.*\[lib{library}\.so\.\d+\.\d+\]", run("readelf", "-dW", path)):
+        errors.append(f"{library}: no version in its soname")
+    errors += [f"{library}: {line}" for line in removed(path)]
+    return len(names), errors
+
+
+def kept_names(path):
+    library = os.path.basename(path).split(".")[0]
+    return os.path.join(ROOT, "cmake", "exports", library + ".abi")
+
+
+def write(path):
+    """Keeps the names of a library, but for those of CAIRN_PRIVATE."""
+    lines = run("abidw", "--no-corpus-path", path).splitlines()
+    with open(kept_names(path), "w", encoding="utf-8") as file:
+        file.write("\n".join(line for line in lines if "CAIRN_PRIVATE" not in line) + "\n")
+
+
+def removed(path):
+    """What a library showed, and shows no longer."""
+    if not os.path.exists(kept_names(path)):
+        return []
+    said = subprocess.run(["abidiff", "--no-added-syms", kept_names(path), path], capture_output=True, text=True)
+    return said.stdout.splitlines() if said.returncode != 0 else []
+
+
+def main():
+    if "--write" in sys.argv:
+        for path in glob.glob(os.path.join(sys.argv[1], "**", "libcairn*.so"), recursive=True):
+            write(path)
+    paths = [path for path in glob.glob(os.path.join(sys.argv[1], "**", "libcairn*.so"), recursive=True)]
+    results = {os.path.basename(path): check(path) for path in sorted(paths)}
+    errors = [error for _, errors in results.values() for error in errors]
+    for error in errors:
+        print(error)
+    counts = ", ".join(f"{name} {count}" for name, (count, _) in results.items())
+    print(f"{counts} names, {len(errors)} errors")
+    sys.exit(1 if errors or not results else 0)
+
+
+if __name__ == "__main__":
+    main()
