@@ -108,8 +108,11 @@ void IslandMerits::FindOfUnit(BlockFrame* frame, const Unit& unit) {
   for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
     kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x, &of_block);
-    std::copy_n(of_block.gain, kLanes, gains_.data() + size_t{kLanes} * b);
+    // lanes that are not used count for nothing
+    std::fill(of_block.gain + block.lanes, of_block.gain + kLanes, 0);
+    std::fill(of_block.square + block.lanes, of_block.square + kLanes, 0);
     const int of_group = b - plan.groups()[unit.group].first_block;
+    std::copy_n(of_block.gain, kLanes, gains_.data() + size_t{kLanes} * b);
     std::copy_n(of_block.square, kLanes, squares + size_t{kLanes} * of_group);
     without_zero_[b] = WithoutZero(block, data);
   }
