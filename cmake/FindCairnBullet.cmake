@@ -5,21 +5,51 @@
 #
 # Bullet's own CMake config has no targets, and Debian's is broken (relative include path, missing use file);
 # CMake's module finds the float libraries only. This looks for headers and libraries itself; pass
-# -DBullet_ROOT=/prefix for a Bullet that is not in a standard place.
+# -DBULLET_ROOT=/prefix (or Bullet_ROOT, or either in the environment) for a Bullet that is not in a standard place.
+#
+# A Bullet whose locks lock is one for several threads (BT_THREADSAFE, cmake/build-bullet-mt.sh): its targets then
+# carry that definition, which what is inline in its headers needs as well. A program of a few lines is run to
+# find out; where none can be run, set CAIRN_BULLET_THREADSAFE.
 #
 # The two precisions export the same mangled names, so a program that has both crashes: each target says which
 # one it is (CAIRN_BULLET_PRECISION), and CMake refuses a target that links both.
 include(FindPackageHandleStandardArgs)
+set(_cairn_bullet_roots ${BULLET_ROOT} ${Bullet_ROOT} $ENV{BULLET_ROOT} $ENV{Bullet_ROOT})
 
 # Found means one precision at least, or the only one that was asked for; ask for the targets to know which.
 find_path(CAIRN_BULLET_INCLUDE_DIR NAMES btBulletDynamicsCommon.h
-          HINTS ${Bullet_ROOT} $ENV{Bullet_ROOT} PATH_SUFFIXES include/bullet bullet)
+          HINTS ${_cairn_bullet_roots} PATH_SUFFIXES include/bullet bullet)
+
+# Sets CAIRN_BULLET_THREADSAFE, once for each Bullet: whether a lock that is held cannot be had by another.
+function(_cairn_try_bullet_locks library)
+  if("${CAIRN_BULLET_THREADSAFE_OF}" STREQUAL "${library}" OR CMAKE_CROSSCOMPILING)
+    return()
+  endif()
+  get_property(languages GLOBAL PROPERTY ENABLED_LANGUAGES)
+  if(NOT "CXX" IN_LIST languages)
+    return()
+  endif()
+  set(source ${CMAKE_BINARY_DIR}/CMakeFiles/cairn_bullet_locks.cc)
+  file(WRITE ${source} "#include <LinearMath/btThreads.h>\n"
+    "int main() { btSpinMutex lock; lock.tryLock(); return lock.tryLock() ? 1 : 0; }\n")
+  try_run(locks compiles ${CMAKE_BINARY_DIR}/CMakeFiles/cairn_bullet_locks ${source}
+    CMAKE_FLAGS -DINCLUDE_DIRECTORIES=${CAIRN_BULLET_INCLUDE_DIR} LINK_LIBRARIES ${library})
+  set(threadsafe OFF)
+  if(compiles AND "${locks}" STREQUAL "0")
+    set(threadsafe ON)
+  endif()
+  unset(locks CACHE)
+  unset(compiles CACHE)
+  set(CAIRN_BULLET_THREADSAFE ${threadsafe} CACHE BOOL "Bullet was built with BT_THREADSAFE" FORCE)
+  set(CAIRN_BULLET_THREADSAFE_OF ${library} CACHE INTERNAL "The library that was asked")
+  mark_as_advanced(CAIRN_BULLET_THREADSAFE)
+endfunction()
 
 function(_cairn_find_bullet target suffix precision definition)
   set(libraries)
   foreach(part BulletDynamics BulletCollision LinearMath)
     find_library(CAIRN_${part}${suffix}_LIBRARY NAMES ${part}${suffix}
-                 HINTS ${Bullet_ROOT} $ENV{Bullet_ROOT} PATH_SUFFIXES lib)
+                 HINTS ${_cairn_bullet_roots} PATH_SUFFIXES lib)
     mark_as_advanced(CAIRN_${part}${suffix}_LIBRARY)
     if(NOT CAIRN_${part}${suffix}_LIBRARY)
       return()
@@ -29,6 +59,14 @@ function(_cairn_find_bullet target suffix precision definition)
   set(CairnBullet_LIBRARIES ${CairnBullet_LIBRARIES} ${libraries} PARENT_SCOPE)
   if(NOT CAIRN_BULLET_INCLUDE_DIR OR TARGET cairn::${target})
     return()
+  endif()
+  if(suffix STREQUAL "")
+    _cairn_try_bullet_locks(${CAIRN_LinearMath_LIBRARY})
+  elseif(NOT CAIRN_LinearMath_LIBRARY)
+    _cairn_try_bullet_locks(${CAIRN_LinearMath${suffix}_LIBRARY})
+  endif()
+  if(CAIRN_BULLET_THREADSAFE)
+    list(APPEND definition BT_THREADSAFE=1)
   endif()
   add_library(cairn::${target} INTERFACE IMPORTED)
   set_target_properties(cairn::${target} PROPERTIES

@@ -33,15 +33,28 @@ struct SeriesOptions {
 };
 /// What a row costs in a sweep, and what the begin and the end of a frame cost beside ten sweeps.
 void PrintCosts(const SeriesOptions& options, const std::string& command);
-/// Wall time of solves of ten sweeps with one thread and with two.
-void PrintThreads(const SeriesOptions& options, const std::string& command);
-
 /// Frames in a row.
 struct WindowOptions {
   std::vector<SceneChoice> scenes;
   int frame = 60;   ///< The first that is looked at.
   int frames = 60;  ///< So many.
 };
+struct ThreadOptions {
+  WindowOptions window;
+  std::vector<int> threads = {1, 2};
+};
+/// Wall time of substeps of ten plain sweeps on so many threads each, in worlds that Cairn drives:
+/// reading, solving, writing back, and the whole step of the world.
+void PrintThreads(const ThreadOptions& options, const std::string& command);
+
+/// What substeps would take on more threads than there are cores: from spans of one thread that
+/// does what is cut for so many.
+void PrintScaling(const ThreadOptions& options, const std::string& command);
+
+/// Whole steps of btDiscreteDynamicsWorldMt with Bullet's solvers and with Cairn.
+/// @throws std::runtime_error in a Bullet that does not lock
+void PrintMtWorlds(const ThreadOptions& options, const std::string& command);
+
 /// Whole steps of two worlds, one with Bullet's stock solver and one with Cairn in its place (ten
 /// iterations each, no subspace step, one thread), stepped in turn: what they take, and what of it
 /// is spent outside of the solver, which no solver can make faster.

@@ -24,13 +24,6 @@ std::vector<SceneChoice> ParseScenes(const std::vector<std::string>& words,
   return scenes;
 }
 
-/// pyramid3d of these sizes.
-std::vector<SceneChoice> Pyramids(const std::vector<int>& sizes) {
-  std::vector<SceneChoice> scenes;
-  for (const int size : sizes) scenes.push_back(cli::ParseScene("pyramid3d", std::to_string(size)));
-  return scenes;
-}
-
 void AddScenes(CLI::App* app, std::vector<std::string>* words) {
   app->add_option("--scene", *words, "NAME, NAME:SIZE, NAME@FIRST_FRAME; may be repeated")
       ->capture_default_str();
@@ -51,6 +44,13 @@ void AddFrames(CLI::App* app, int* first, int* count) {
       ->capture_default_str();
   app->add_option("--frames", *count, "How many")
       ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+}
+
+void AddThreads(CLI::App* app, std::vector<int>* threads) {
+  app->add_option("--threads", *threads, "So many; several with commas between them")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024))
       ->capture_default_str();
 }
 
@@ -129,11 +129,29 @@ int Main(int count, char** arguments) {
   AddScenes(cost_app, &cost_scenes);
   AddSeries(cost_app, &cost);
 
-  SeriesOptions threads{.scenes = {}, .rounds = 101};
-  std::vector<int> sizes = {2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 18, 22};
-  CLI::App* const threads_app = app.add_subcommand("threads", "Two threads against one");
-  threads_app->add_option("--size", sizes, "Of pyramid3d; may be repeated");
-  AddSeries(threads_app, &threads);
+  ThreadOptions threads{.window = {.scenes = {}, .frame = 60, .frames = 60}};
+  std::vector<std::string> thread_scenes = {"pyramid:100", "pyramid3d:30", "islands:2500",
+                                            "pyramid3d:12", "rubble@240"};
+  CLI::App* const threads_app =
+      app.add_subcommand("threads", "Substeps on one thread, two, and so on");
+  AddScenes(threads_app, &thread_scenes);
+  AddFrames(threads_app, &threads.window.frame, &threads.window.frames);
+  AddThreads(threads_app, &threads.threads);
+
+  ThreadOptions scaling{.window = {.scenes = {}, .frame = 60, .frames = 20},
+                        .threads = {1, 2, 4, 8, 16}};
+  std::vector<std::string> scaling_scenes = thread_scenes;
+  CLI::App* const scaling_app = app.add_subcommand(
+      "scaling", "What substeps would take on more threads than there are cores");
+  AddScenes(scaling_app, &scaling_scenes);
+  AddFrames(scaling_app, &scaling.window.frame, &scaling.window.frames);
+  AddThreads(scaling_app, &scaling.threads);
+
+  ThreadOptions mt{.window = {.scenes = {}, .frame = 60, .frames = 60}};
+  CLI::App* const mt_app =
+      app.add_subcommand("mt", "Bullet's multithreaded world, with its solvers and with Cairn");
+  AddFrames(mt_app, &mt.window.frame, &mt.window.frames);
+  AddThreads(mt_app, &mt.threads);
 
   WindowOptions swap{.scenes = {}, .frame = 60, .frames = 40};
   std::vector<std::string> swap_scenes = {"pyramid:100", "castle",   "pyramid3d",    "wall",
@@ -179,11 +197,16 @@ int Main(int count, char** arguments) {
   } else if (deadlines_app->parsed()) {
     deadlines.scenes = ParseScenes(deadline_scenes);
     PrintDeadlines(deadlines, command);
+  } else if (mt_app->parsed()) {
+    PrintMtWorlds(mt, command);
+  } else if (scaling_app->parsed()) {
+    scaling.window.scenes = ParseScenes(scaling_scenes);
+    PrintScaling(scaling, command);
   } else if (step_app->parsed()) {
     step.scenes = ParseScenes(step_scenes);
     PrintSteps(step, command);
   } else {
-    threads.scenes = Pyramids(sizes);
+    threads.window.scenes = ParseScenes(thread_scenes);
     PrintThreads(threads, command);
   }
   return 0;

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "frames/experiments.h"
-
+#include <cairn/bullet/constraint_solver.h>
 #include <fmt/format.h>
 
-#include <array>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "frames/frame_solver.h"
+#include "frames/experiments.h"
 #include "run/scene_run.h"
+#include "support/duration.h"
 #include "support/machine/run_context.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
 #include "support/text_table.h"
 
@@ -16,50 +18,80 @@ namespace cairn::frames {
 namespace {
 
 constexpr int kSweeps = 10;
-/// One thread twice: what differs between the two is noise.
-constexpr std::array<int, 3> kThreads = {1, 1, 2};
 
-/// [us]
-using Times = std::array<std::vector<double>, kThreads.size()>;
-
-Times TimeFrame(const bench::ContactFrame& frame, int rounds) {
-  std::vector<FrameSolver> solvers;
-  for (const int threads : kThreads) solvers.emplace_back(Sweeps(kSweeps, threads));
-  for (FrameSolver& solver : solvers) solver.Solve(frame);
-  Times times;
-  for (int round = 0; round < rounds; ++round) {
-    for (size_t k = 0; k < solvers.size(); ++k) {
-      const size_t lane = (k + static_cast<size_t>(round)) % solvers.size();
-      times[lane].push_back(1e3 * solvers[lane].Solve(frame).wall);
-    }
+/// A world that Cairn drives with so many threads, and what its steps took [ms].
+class ThreadedWorld {
+ public:
+  ThreadedWorld(const SceneChoice& scene, int threads)
+      : threads_(threads), solver_(Sweeps(kSweeps, threads)), run_(scene, &solver_) {
+    run_.world().solver_info().m_numIterations = kSweeps;
   }
-  return times;
-}
+
+  void Step(bool keep) {
+    const cli::ThreadStopwatch stopwatch;
+    run_.Step();
+    const double step = stopwatch.Read().wall;
+    if (!keep) return;
+    const bullet::SubstepTimes times = solver_.times();
+    build.push_back(cli::Milliseconds(times.build));
+    solve.push_back(cli::Milliseconds(times.solve));
+    write.push_back(cli::Milliseconds(times.write));
+    whole.push_back(build.back() + solve.back() + write.back());
+    world.push_back(step);
+  }
+
+  int threads() const { return threads_; }
+  int rows() const {
+    int rows = 0;
+    for (const IslandReport& island : solver_.report().islands) rows += island.rows;
+    return rows;
+  }
+
+  std::vector<double> build, solve, write, whole, world;
+
+ private:
+  int threads_;
+  bullet::ConstraintSolver solver_;
+  cli::SceneRun run_;
+};
 
 }  // namespace
 
-void PrintThreads(const SeriesOptions& options, const std::string& command) {
-  fmt::print("{}", cli::Origin("Threads: wall time of a Solve() of ten sweeps",
+void PrintThreads(const ThreadOptions& options, const std::string& command) {
+  fmt::print("{}", cli::Origin("Threads: a substep of ten plain sweeps in worlds of their own",
                                cli::DescribeContext(command)));
   fmt::print(
-      "- {} rounds, in turn; medians, and ratios of medians and of the fastest tenths\n"
-      "- 1 / 1: one thread against one thread again, which is noise\n\n",
-      options.rounds);
-  cli::TextTable table = cli::TableOf({"scene", "rows", "1 thread us", "2 threads us", "1 / 2",
-                                       "1 / 2 fast", "1 / 1", "1 / 1 fast"});
-  for (const SceneChoice& scene : options.scenes) {
-    cli::StateRun run(scene);
-    run.Skip(scene.FirstFrame(options.frame));
-    const bench::ContactFrame frame = run.Record();
-    const Times times = TimeFrame(frame, options.rounds);
-    const auto ratio = [&](int lane, double share) {
-      return fmt::format("{:.2f}",
-                         cli::Quantile(times[0], share) / cli::Quantile(times[lane], share));
-    };
-    table.rows.push_back({NameOf(scene), fmt::format("{}", frame.rows.size()),
-                          fmt::format("{:.1f}", cli::Median(times[0])),
-                          fmt::format("{:.1f}", cli::Median(times[2])), ratio(2, 0.5),
-                          ratio(2, 0.1), ratio(1, 0.5), ratio(1, 0.1)});
+      "- {} frames, the worlds in turn; medians, wall clock, ms; ratios to the first number of "
+      "threads\n"
+      "- solver: build, solve and write; step: that and all of Bullet's own, which is on one "
+      "thread\n"
+      "- the first number twice: what differs between the two is noise\n\n",
+      options.window.frames);
+  cli::TextTable table = cli::TableOf({"scene", "rows", "threads", "build", "solve", "write",
+                                       "solver", "step", "ratio, solver", "ratio, step"});
+  for (const SceneChoice& scene : options.window.scenes) {
+    std::vector<int> counts = options.threads;
+    counts.insert(counts.begin() + 1, counts.front());
+    std::vector<std::unique_ptr<ThreadedWorld>> worlds;
+    for (const int threads : counts) {
+      worlds.push_back(std::make_unique<ThreadedWorld>(scene, threads));
+    }
+    const int first = scene.FirstFrame(options.window.frame);
+    for (int frame = 0; frame < first + options.window.frames; ++frame) {
+      for (const auto& world : worlds) world->Step(frame >= first);
+    }
+    for (const auto& world : worlds) {
+      const auto ms = [](const std::vector<double>& times) {
+        return fmt::format("{:.3f}", cli::Median(times));
+      };
+      const auto ratio = [](const std::vector<double>& base, const std::vector<double>& times) {
+        return fmt::format("{:.2f}", cli::Median(base) / cli::Median(times));
+      };
+      table.rows.push_back(
+          {NameOf(scene), fmt::format("{}", world->rows()), fmt::format("{}", world->threads()),
+           ms(world->build), ms(world->solve), ms(world->write), ms(world->whole), ms(world->world),
+           ratio(worlds[0]->whole, world->whole), ratio(worlds[0]->world, world->world)});
+    }
   }
   fmt::print("{}\n", table.ToMarkdown());
 }

@@ -97,10 +97,16 @@ Body ToBody(const btRigidBody& rigid) {
 }
 
 void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
-                      GeometricStiffness* stiffness) {
+                      detail::Threads* threads) {
   ++substep_;
   time_step_ = info.m_timeStep;
   strangers_.clear();
+  if (threads->several() && EnterInParts(objects, info, threads)) return;
+  EnterInOrder(objects, info);
+}
+
+void BodyTable::EnterInOrder(std::span<btCollisionObject* const> objects,
+                             const btContactSolverInfo& info) {
   bodies_.clear();
   motions_.clear();
   rigids_.clear();
@@ -114,7 +120,72 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btConta
     terms.Add(*rigids_[party.number], party.number);
   }
   terms.End();
-  if (stiffness != nullptr) Stiffen(stiffness);
+}
+
+bool BodyTable::EnterInParts(std::span<btCollisionObject* const> objects,
+                             const btContactSolverInfo& info, detail::Threads* threads) {
+  constexpr int kObjectsOfPart = 128;
+  constexpr SpanLabel kLabel{SpanKind::kRead};
+  const int count = static_cast<int>(objects.size());
+  if (claims_size_ < slots_.size()) {
+    claims_size_ = 2 * slots_.size();
+    claims_ = std::make_unique<std::atomic<unsigned>[]>(claims_size_);
+  }
+  parts_.assign((count + kObjectsOfPart - 1) / kObjectsOfPart, {});
+  const auto count_part = [&](int first, int of_part) {
+    parts_[first / kObjectsOfPart] = Count(objects.subspan(first, of_part));
+  };
+  threads->For(count, kObjectsOfPart, count_part, kLabel);
+  int bodies = 0;
+  for (Part& part : parts_) {
+    if (!part.regular) return false;
+    part.first = bodies;
+    bodies += part.bodies;
+  }
+  bodies_.resize(bodies);
+  motions_.resize(bodies);
+  rigids_.resize(bodies);
+  const auto enter_part = [&](int first, int of_part) {
+    EnterPart(objects.subspan(first, of_part), parts_[first / kObjectsOfPart].first, info);
+  };
+  threads->For(count, kObjectsOfPart, enter_part, kLabel);
+  return true;
+}
+
+BodyTable::Part BodyTable::Count(std::span<btCollisionObject* const> objects) {
+  Part part;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    PrefetchBehind(objects, i);
+    const int index = objects[i]->getWorldArrayIndex();
+    part.regular = index >= 0 && index < static_cast<int>(slots_.size()) &&
+                   claims_[index].exchange(substep_, std::memory_order_relaxed) != substep_;
+    if (!part.regular) return part;
+    Party unused;
+    if (Describe(*objects[i], &unused) != nullptr) ++part.bodies;
+  }
+  return part;
+}
+
+void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first,
+                          const btContactSolverInfo& info) {
+  GyroscopicTerms terms(info, &motions_);
+  int number = first;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    PrefetchBehind(objects, i);
+    const btCollisionObject& object = *objects[i];
+    Slot& slot = slots_[object.getWorldArrayIndex()];
+    slot.object = &object;
+    slot.substep = substep_;
+    btRigidBody* const rigid = Describe(object, &slot.party);
+    if (rigid == nullptr) continue;
+    slot.party.number = number;
+    bodies_[number] = ToBody(*rigid);
+    motions_[number] = MotionOf(*rigid, time_step_);
+    rigids_[number] = rigid;
+    if (slot.party.reacts) terms.Add(*rigid, number);
+    ++number;
+  }
+  terms.End();
 }
 
 void BodyTable::Stiffen(GeometricStiffness* stiffness) {
@@ -144,7 +215,7 @@ const Party& BodyTable::Enter(const btCollisionObject& object) {
   return entry->second;
 }
 
-void BodyTable::Fill(const btCollisionObject& object, Party* party) {
+btRigidBody* BodyTable::Describe(const btCollisionObject& object, Party* party) {
   using Object = btCollisionObject;
   const btVector3& at = object.getWorldTransform().getOrigin();
   for (int k = 0; k < 3; ++k) party->at[k] = at[k];
@@ -154,9 +225,14 @@ void BodyTable::Fill(const btCollisionObject& object, Party* party) {
   party->rolls_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_ROLLING_FRICTION);
   // the solver of a world may write to its bodies, though manifolds hold them as const
   btRigidBody* const rigid = btRigidBody::upcast(const_cast<btCollisionObject*>(&object));
-  if (rigid == nullptr) return;
+  if (rigid == nullptr) return nullptr;
   party->reacts = Reacts(*rigid);
-  if (!party->reacts && !rigid->isKinematicObject()) return;
+  return party->reacts || rigid->isKinematicObject() ? rigid : nullptr;
+}
+
+void BodyTable::Fill(const btCollisionObject& object, Party* party) {
+  btRigidBody* const rigid = Describe(object, party);
+  if (rigid == nullptr) return;
   party->number = size();
   bodies_.push_back(ToBody(*rigid));
   motions_.push_back(MotionOf(*rigid, time_step_));

@@ -4,6 +4,8 @@
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <atomic>
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "cairn/contact_problem.h"
 #include "cairn/detail/prefetch.h"
 #include "cairn/detail/stiffness.h"
+#include "cairn/detail/threads.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -48,9 +51,10 @@ class BodyTable {
  public:
   /// Begins a substep with the bodies that Bullet lists; entries that are no rigid bodies are
   /// passed over.
-  /// @param stiffness  what tension asks for is done to them; nullptr: nothing
   void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
-             GeometricStiffness* stiffness);
+             detail::Threads* threads);
+  /// Does to them what tension asks for.
+  void Stiffen(GeometricStiffness* stiffness);
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
   /// first asked for. The reference is good until another object is asked for.
@@ -62,6 +66,21 @@ class BodyTable {
     }
     return Enter(object);
   }
+
+  /// An object that was listed or asked for before, or nullptr. Any thread may ask, while none
+  /// enters another one.
+  const Party* Find(const btCollisionObject& object) const {
+    const int index = object.getWorldArrayIndex();
+    if (index >= 0 && index < static_cast<int>(slots_.size())) {
+      const Slot& slot = slots_[index];
+      if (slot.substep == substep_ && slot.object == &object) return &slot.party;
+    }
+    if (strangers_.empty()) return nullptr;
+    const auto stranger = strangers_.find(&object);
+    return stranger == strangers_.end() ? nullptr : &stranger->second;
+  }
+  /// Where most parties are. While that stays they stay where they are.
+  const void* place() const { return slots_.data(); }
 
   int size() const { return static_cast<int>(bodies_.size()); }
   std::span<const Body> bodies() const { return bodies_; }
@@ -82,15 +101,34 @@ class BodyTable {
     Party party;
   };
 
-  void Stiffen(GeometricStiffness* stiffness);
+  /// What a part of the list comes to.
+  struct Part {
+    int bodies = 0, first = 0;  ///< that have a number, and the first of these
+    bool regular = true;        ///< each is met once, and has a slot of its own
+  };
+
+  void EnterInOrder(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
+  /// The same on several threads. False if not all are listed once, with a slot of their own that
+  /// is there already: then nothing was done.
+  bool EnterInParts(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
+                    detail::Threads* threads);
+  Part Count(std::span<btCollisionObject* const> objects);
+  void EnterPart(std::span<btCollisionObject* const> objects, int first,
+                 const btContactSolverInfo& info);
   /// One that has no slot yet, or none of its own.
   const Party& Enter(const btCollisionObject& object);
   /// Fills it where it stays: a copy would wait for what was just written.
   void Fill(const btCollisionObject& object, Party* party);
+  /// What a party is, its number apart. Returns the body that is to have one, or nullptr.
+  static btRigidBody* Describe(const btCollisionObject& object, Party* party);
 
   unsigned substep_ = 0;
   btScalar time_step_ = 0;
   std::vector<Slot> slots_;
+  /// By slot: the last substep in which several threads listed bodies and one came to it.
+  std::unique_ptr<std::atomic<unsigned>[]> claims_;
+  size_t claims_size_ = 0;
+  std::vector<Part> parts_;
   /// Objects in no world, or with the index of another one from another world.
   std::unordered_map<const btCollisionObject*, Party> strangers_;
 

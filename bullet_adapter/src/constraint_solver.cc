@@ -11,6 +11,7 @@
 
 #include "cairn/bullet/detail/group_rows.h"
 #include "cairn/detail/spans.h"
+#include "cairn/detail/threads.h"
 #include "cairn/solver.h"
 #include "fast_group.h"
 
@@ -263,6 +264,11 @@ void ConstraintSolver::reset() {
 bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
   if (!AllOfKnownType(group.joints) || !impl_->AcceptSettings()) return false;
   FastGroup& fast = impl_->fast;
+  detail::Threads& threads = impl_->solver.threads();
+  threads.Follow(impl_->settings.threads, impl_->settings.executor);
+  threads.RecordTo(impl_->settings.tuning.spans);
+  // from reading to writing back; how many are worth it the last substep tells
+  const detail::Shift shift(&threads, detail::ThreadsFor(fast.rows(), impl_->settings.threads));
   {
     const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
     Options options = impl_->options;
@@ -270,7 +276,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0)) == Path::kReference)
       options.contacts = ContactForm::kRows;
     fast.Read(group, info, LimitsOf(ByIterations(impl_->settings, impl_->options), group.joints),
-              options);
+              options, &threads);
   }
   if (fast.problem().bodies.empty()) {
     fast.Forget();

@@ -3,43 +3,19 @@
 
 #include <utility>
 
-#include "cairn/detail/prefetch.h"
+#include "contacts/prefetch_manifold.h"
 #include "write_back.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
-namespace {
-
-void PrefetchObject(const btCollisionObject& object) {
-  const auto* const begin = reinterpret_cast<const char*>(&object);
-  Prefetch(begin + 64);   // where it is
-  Prefetch(begin + 192);  // its friction, and its index in the world
-}
-
-/// Manifolds lie all over the memory, and most of a large world are empty: how many points they
-/// have is asked for some ahead, their points and bodies a little ahead.
-void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i) {
-  constexpr size_t kFar = 32, kNear = 8;
-  if (i + kFar < manifolds.size()) {
-    // the number of points is a little before it, maybe in another line
-    Prefetch(&manifolds[i + kFar]->m_companionIdA - 4, 5 * sizeof(int));
-  }
-  if (i + kNear >= manifolds.size()) return;
-  const btPersistentManifold& near = *manifolds[i + kNear];
-  if (near.getNumContacts() == 0) return;
-  PrefetchObject(*near.getBody0());
-  PrefetchObject(*near.getBody1());
-  Prefetch(&near.getContactPoint(0), near.getNumContacts() * sizeof(btManifoldPoint));
-}
-
-}  // namespace
-
 void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
-                     const Options& options) {
+                     const Options& options, detail::Threads* threads) {
+  threads_ = threads;
   pushes_.Clear();
   // the tension of a world says nothing of another one; its info is its own
   if (std::exchange(world_, &info) != &info || !options.geometric_stiffness) stiffness_.Reset();
-  bodies_.Begin(group.bodies, info, options.geometric_stiffness ? &stiffness_ : nullptr);
+  bodies_.Begin(group.bodies, info, threads_);
+  if (options.geometric_stiffness) bodies_.Stiffen(&stiffness_);
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
@@ -48,20 +24,23 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
 
   const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),
                            &twist_memory_};
-  ReadContacts(group.manifolds, info, limits, options.contacts, start);
-  velocities_.assign(bodies_.size(), Velocity{});
+  twist_memory_.Begin();
+  contacts_.Begin(info, limits, start);
+  const bool all = options.contacts == ContactForm::kManifolds && threads_->several() &&
+                   contacts_.AppendAll(group.manifolds, &bodies_, &pushes_, threads_);
+  if (!all) ReadContacts(group.manifolds, info, limits, options.contacts, start);
+  contacts_.End();
+  FindMotions();
 }
 
 void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
                              const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
                              const ContactStart& start) {
-  twist_memory_.Begin();
-  contacts_.Begin(info, limits, start);
   const ContactLaw law(info, limits);
   ContactRowBuilder builder(law, bodies_, &group_, &pushes_);
   ManifoldInput input;
   for (size_t i = 0; i < manifolds.size(); ++i) {
-    PrefetchBehind(manifolds, i);
+    PrefetchBehind(manifolds, i, PrefetchPoints::kYes);
     btPersistentManifold* const manifold = manifolds[i];
     const bool taken =
         form == ContactForm::kManifolds && contacts_.Append(manifold, &bodies_, &pushes_);
@@ -69,23 +48,34 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
     ReadManifold(manifold, info, start, &bodies_, &input);
     builder.Append(input);
   }
-  contacts_.End();
-  FindMotions();
 }
 
 void FastGroup::FindMotions() {
+  constexpr int kBodiesOfPart = 512;
   const bool wanted = !contacts_.manifolds().empty() || !group_.compact_joints.empty();
+  velocities_.resize(bodies_.size());
   motions_.resize(wanted ? bodies_.size() : 0);
   const auto put = [](const btVector3& from, float* to) {
     for (int k = 0; k < 3; ++k) to[k] = static_cast<float>(from[k]);
   };
-  for (size_t i = 0; i < motions_.size(); ++i) {
-    const Motion& motion = bodies_.motion(static_cast<int>(i));
-    put(motion.velocity + motion.external_velocity, motions_[i].free_velocity);
-    put(motion.spin + motion.external_spin, motions_[i].free_spin);
-    put(motion.velocity, motions_[i].start_velocity);
-    put(motion.spin, motions_[i].start_spin);
-  }
+  const auto find = [&](int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      velocities_[i] = {};
+      if (!wanted) continue;
+      const Motion& motion = bodies_.motion(i);
+      put(motion.velocity + motion.external_velocity, motions_[i].free_velocity);
+      put(motion.spin + motion.external_spin, motions_[i].free_spin);
+      put(motion.velocity, motions_[i].start_velocity);
+      put(motion.spin, motions_[i].start_spin);
+    }
+  };
+  threads_->For(bodies_.size(), kBodiesOfPart, find, {SpanKind::kRead});
+}
+
+int FastGroup::rows() const {
+  // a normal and two directions of friction
+  return static_cast<int>(3 * contacts_.points().size() + group_.rows.size() +
+                          group_.joint_rows.size());
 }
 
 ContactProblem FastGroup::problem() const {
@@ -109,9 +99,9 @@ bool FastGroup::FitsBullet() const { return bullet::FitsBullet(group_, bodies_, 
 void FastGroup::Write(const btContactSolverInfo& info) {
   pushes_.Solve(info, bodies_.size());
   WriteContacts(group_, info);
-  contacts_.Write();
+  contacts_.Write(threads_);
   WriteJoints(group_, info);
-  WriteBodies(bodies_, velocities_, pushes_, info);
+  WriteBodies(bodies_, velocities_, pushes_, info, threads_);
   joint_memory_.Keep(group_);
   twist_memory_.Keep(group_);
   contacts_.Keep(&twist_memory_);

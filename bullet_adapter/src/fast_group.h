@@ -37,8 +37,9 @@ class FastGroup {
 
   /// Builds the rows and their start. Of Bullet's objects it changes what can be done again: the
   /// directions of friction of the points, and what joints prepare.
+  /// @param threads  that do it, and write back; must outlive the group
   void Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
-            const Options& options);
+            const Options& options, detail::Threads* threads);
   /// Remembers what joints pull with, as solved. @pre Read()
   void Learn(const btContactSolverInfo& info, const Report& report);
 
@@ -53,6 +54,8 @@ class FastGroup {
   /// The most sweeps that a joint asks for.
   int most_sweeps() const { return joint_builder_.most_sweeps(); }
 
+  /// How many there are, or a little more.
+  int rows() const;
   /// Whose rows they are.
   const GroupProblem& group() const { return group_; }
   /// Whose manifolds.
@@ -72,6 +75,7 @@ class FastGroup {
                     const ContactStart& start);
   void FindMotions();
 
+  detail::Threads* threads_ = nullptr;
   BodyTable bodies_;
   GeometricStiffness stiffness_;
   const btContactSolverInfo* world_ = nullptr;  ///< whose tension stiffness_ knows

@@ -110,11 +110,14 @@ void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info) {
   }
 }
 
+namespace {
+
+/// Of bodies from one number on, up to another one.
 void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
-                 const SplitImpulse& pushes, const btContactSolverInfo& info) {
+                 const SplitImpulse& pushes, const btContactSolverInfo& info, int first, int end) {
   constexpr int kAhead = 6;
-  for (int i = 0; i < bodies.size(); ++i) {
-    if (i + kAhead < bodies.size()) bodies.PrefetchVelocity(i + kAhead);
+  for (int i = first; i < end; ++i) {
+    if (i + kAhead < end) bodies.PrefetchVelocity(i + kAhead);
     if (!bodies.reacts(i)) continue;
     const Motion& motion = bodies.motion(i);
     btRigidBody& rigid = bodies.rigid(i);
@@ -122,6 +125,18 @@ void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
     rigid.setAngularVelocity(SpinAfter(motion, changes[i]));
     if (!pushes.velocities().empty()) WritePush(pushes.velocities()[i], info, &rigid);
   }
+}
+
+}  // namespace
+
+void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
+                 const SplitImpulse& pushes, const btContactSolverInfo& info,
+                 detail::Threads* threads) {
+  constexpr int kBodiesOfPart = 256;
+  const auto write = [&](int first, int count) {
+    WriteBodies(bodies, changes, pushes, info, first, first + count);
+  };
+  threads->For(bodies.size(), kBodiesOfPart, write, {SpanKind::kWrite});
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -28,7 +28,8 @@ void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info);
 /// Writes velocities to the bodies that react, and moves those that are pushed out of penetration.
 /// @param changes  of the velocities, one per body of the table
 void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
-                 const SplitImpulse& pushes, const btContactSolverInfo& info);
+                 const SplitImpulse& pushes, const btContactSolverInfo& info,
+                 detail::Threads* threads);
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet

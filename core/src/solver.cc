@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/detail/threads.h"
 #include "cycle/block_solver.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
@@ -119,7 +120,8 @@ struct Solver::Impl {
   class Attempt {
    public:
     explicit Attempt(Impl* impl) : impl_(impl) {
-      if (impl->blocks == nullptr) impl->blocks = std::make_unique<BlockSolver>();
+      if (impl->blocks == nullptr)
+        impl->blocks = std::make_unique<BlockSolver>(&impl->threads.crew());
     }
     ~Attempt() {
       if (std::uncaught_exceptions() > exceptions_) impl_->Forget();
@@ -161,6 +163,7 @@ struct Solver::Impl {
   static constexpr WorkPrices kBlockPrices = {.unseen_rows = 8192, .can_give_up_steps = true};
 
   WorkPrices block_prices = kBlockPrices, row_prices = kRowPrices;
+  detail::Threads threads;
   std::unique_ptr<BlockSolver> blocks;
 };
 bool Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
@@ -232,6 +235,8 @@ Settings& Solver::settings() { return impl_->user_settings; }
 const Settings& Solver::settings() const { return impl_->user_settings; }
 
 void Solver::Reset() { impl_->Forget(); }
+
+detail::Threads& Solver::threads() { return impl_->threads; }
 
 Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                      std::span<Velocity> velocities) {

@@ -25,7 +25,7 @@ constexpr int kOwnSoftness = BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_H
 
 void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
                           const ContactStart& start) {
-  manifolds_.clear();
+  manifold_count_ = 0;
   count_ = 0;
   twists_.clear();
   twist_impulses_.clear();
@@ -59,43 +59,54 @@ void ContactPoints::MakeRoom(size_t more) {
   sources_.resize(size);
 }
 
+bool ContactPoints::Takes(const Ends& ends, const Features& found) const {
+  return takes_any_ && !ends.a.slides_unevenly && !ends.b.slides_unevenly &&
+         (found.flags & not_taken_) == 0 &&
+         !(found.rolls && (ends.a.rolls_unevenly || ends.b.rolls_unevenly));
+}
+
+void ContactPoints::Describe(const Ends& ends, const Features& found, size_t first_point,
+                             Manifold* to) const {
+  *to = like_;
+  to->body_a = ends.a.number;
+  to->body_b = ends.b.number;
+  to->first_point = static_cast<int>(first_point);
+  to->points = static_cast<std::int8_t>(found.points);
+  to->soft = found.soft;
+  to->twists = found.rolls;
+}
+
 bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
                            SplitImpulse* pushes) {
   if (manifold->getNumContacts() == 0) return true;
   const Ends ends{bodies->PartyOf(*manifold->getBody0()), bodies->PartyOf(*manifold->getBody1())};
-  if (!takes_any_ || ends.a.slides_unevenly || ends.b.slides_unevenly) return false;
+  if (!Takes(ends, {})) return false;
   if (!ends.a.reacts && !ends.b.reacts) return true;
-  const Features found = ReadPoints(ends, manifold);
-  if ((found.flags & not_taken_) != 0) return false;
-  if (found.rolls && (ends.a.rolls_unevenly || ends.b.rolls_unevenly)) return false;
+  MakeRoom(manifold->getNumContacts());
+  const Features found = ReadPoints(ends, manifold, count_);
+  if (!Takes(ends, found)) return false;
   if (found.points == 0) return true;
 
-  Manifold& next = manifolds_.emplace_back(like_);
-  next.body_a = ends.a.number;
-  next.body_b = ends.b.number;
-  next.first_point = static_cast<int>(count_);
-  next.points = static_cast<std::int8_t>(found.points);
-  next.soft = found.soft;
-  next.twists = found.rolls;
+  if (manifold_count_ == manifolds_.size()) manifolds_.emplace_back();
+  Describe(ends, found, count_, &manifolds_[manifold_count_++]);
   const size_t end = count_ + found.points;
   for (; count_ < end; ++count_) {
     if (found.pushed) AddPush(ends, *sources_[count_], *bodies, pushes);
-    if (found.rolls) AddTwist(*sources_[count_]);
+    if (found.rolls) AddTwist(count_);
   }
   return true;
 }
 
-ContactPoints::Features ContactPoints::ReadPoints(const Ends& ends,
-                                                  btPersistentManifold* manifold) {
+ContactPoints::Features ContactPoints::ReadPoints(const Ends& ends, btPersistentManifold* manifold,
+                                                  size_t place) {
   const int count = manifold->getNumContacts();
   const btScalar threshold = manifold->getContactProcessingThreshold();
-  MakeRoom(count);
   Features found;
   for (int i = 0; i < count; ++i) {
     btManifoldPoint& point = manifold->getContactPoint(i);
     if (!(point.getDistance() <= threshold)) continue;
-    ReadPoint(ends, point, count_ + found.points, &found);
-    sources_[count_ + found.points] = &point;
+    ReadPoint(ends, point, place + found.points, &found);
+    sources_[place + found.points] = &point;
     ++found.points;
   }
   return found;
@@ -158,9 +169,10 @@ void ContactPoints::ReadPoint(const Ends& ends, const btManifoldPoint& source, s
       .heading = static_cast<float>(source.m_prevRHS)};
 }
 
-void ContactPoints::AddTwist(const btManifoldPoint& source) {
-  twists_.resize(count_ + 1);
-  twist_impulses_.resize(count_ + 1);
+void ContactPoints::AddTwist(size_t place) {
+  const btManifoldPoint& source = *sources_[place];
+  twists_.resize(place + 1);
+  twist_impulses_.resize(place + 1);
   // spinning friction counts only together with rolling friction, and the coefficient is also the
   // most that there is
   if (!(source.m_combinedRollingFriction > 0)) return;
@@ -182,13 +194,19 @@ void ContactPoints::Keep(TwistMemory* memory) const {
   }
 }
 
-void ContactPoints::Write() const {
+void ContactPoints::Write(detail::Threads* threads) const {
+  constexpr int kPointsOfPart = 512;
+  const auto write = [this](int first, int count) { WritePart(first, first + count); };
+  threads->For(static_cast<int>(count_), kPointsOfPart, write, {SpanKind::kWrite});
+}
+
+void ContactPoints::WritePart(size_t first, size_t end) const {
   const bool warm_starts = (info_.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const bool both = like_.tangents > 1;
   constexpr size_t kAhead = 12;
   // from the normal to the directions of friction
   constexpr size_t kLast = sizeof(btManifoldPoint) - offsetof(btManifoldPoint, m_normalWorldOnB);
-  for (size_t i = 0; i < count_; ++i) {
+  for (size_t i = first; i < end; ++i) {
     if (i + kAhead < count_) {
       Prefetch(&sources_[i + kAhead]->m_normalWorldOnB, kLast);
     }

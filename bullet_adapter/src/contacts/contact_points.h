@@ -11,6 +11,7 @@
 #include "cairn/bullet/detail/group_rows.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
+#include "cairn/detail/threads.h"
 #include "contacts/contact_input.h"
 #include "contacts/split_impulse.h"
 
@@ -29,8 +30,14 @@ class ContactPoints {
   /// Appends a manifold, and its deep penetration to @p pushes. False if it has to be written out
   /// as rows: nothing was done.
   bool Append(btPersistentManifold* manifold, BodyTable* bodies, SplitImpulse* pushes);
+  /// Appends all manifolds of a group on several threads, with the result of Append() one by one.
+  /// False if some have to be written out as rows: nothing was done.
+  bool AppendAll(std::span<btPersistentManifold* const> manifolds, BodyTable* bodies,
+                 SplitImpulse* pushes, detail::Threads* threads);
 
-  std::span<const Manifold> manifolds() const { return manifolds_; }
+  std::span<const Manifold> manifolds() const {
+    return std::span(manifolds_).first(manifold_count_);
+  }
   std::span<const ContactPoint> points() const { return std::span(points_).first(count_); }
   /// One per point: the start, and after solving the result.
   std::span<ContactImpulse> impulses() { return std::span(impulses_).first(count_); }
@@ -42,13 +49,32 @@ class ContactPoints {
   std::span<btManifoldPoint* const> sources() const { return std::span(sources_).first(count_); }
 
   /// Writes impulses and directions to the points of Bullet.
-  void Write() const;
+  void Write(detail::Threads* threads) const;
   /// Adds what resists rolling to @p memory, once everything is written.
   void Keep(TwistMemory* memory) const;
 
  private:
   struct Ends {
     Party a, b;
+  };
+  /// A manifold with points, and whom it is between; nullptr for one who was not met yet.
+  struct Entry {
+    btPersistentManifold* manifold;
+    const Party *a, *b;
+  };
+  /// What cannot be done on several threads.
+  struct Rest {
+    int manifold;
+    Entry entry;
+    bool pushed, rolls;
+  };
+  /// Manifolds of a group that one thread reads.
+  struct Part {
+    std::vector<Entry> entries;
+    std::vector<Rest> rest;
+    int points = 0, first_point = 0, first_manifold = 0;
+    bool strange = false;      ///< some are with somebody who was not met yet
+    bool written_out = false;  ///< some have to be
   };
   /// What there is among the points of a manifold.
   struct Features {
@@ -58,12 +84,22 @@ class ContactPoints {
   };
 
   void MakeRoom(size_t more);
-  /// Reads the points of a manifold behind those that there are.
-  Features ReadPoints(const Ends& ends, btPersistentManifold* manifold);
+  /// Reads the points of a manifold into a place where there is room for them.
+  Features ReadPoints(const Ends& ends, btPersistentManifold* manifold, size_t place);
+  /// Whether a manifold can stay one.
+  bool Takes(const Ends& ends, const Features& found) const;
+  void Describe(const Ends& ends, const Features& found, size_t first_point, Manifold* to) const;
+  void FindEntries(std::span<btPersistentManifold* const> manifolds, const BodyTable& bodies,
+                   Part* part) const;
+  /// Enters who was not met yet, and drops manifolds in which nobody reacts.
+  void MeetStrangers(BodyTable* bodies, Part* part) const;
+  void ReadPart(Part* part);
+  void ReadRest(const Part& part, const BodyTable& bodies, SplitImpulse* pushes);
   void ReadPoint(const Ends& ends, const btManifoldPoint& source, size_t place, Features* found);
   bool IsPushed(btScalar distance) const;
-  /// What resists rolling at the point at count_.
-  void AddTwist(const btManifoldPoint& source);
+  void WritePart(size_t first, size_t end) const;
+  /// What resists rolling at a point.
+  void AddTwist(size_t place);
   /// Adds what takes a deep point apart to @p pushes.
   void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
                SplitImpulse* pushes);
@@ -75,8 +111,11 @@ class ContactPoints {
   ContactStart start_;
   cairn::ContactLaw law_;
   Manifold like_;  ///< what all manifolds have in common
+  std::vector<Part> parts_;
+  int in_order_ = 0;  ///< groups to be read one by one, as one of late had to be
+  // of the manifolds and points, the first are in use
+  size_t manifold_count_ = 0;
   std::vector<Manifold> manifolds_;
-  // of the points, the first count_ are in use
   size_t count_ = 0;
   std::vector<ContactPoint> points_;
   std::vector<ContactImpulse> impulses_;

@@ -49,6 +49,7 @@ class Solver {
 
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();
+  detail::Threads& threads();  ///< For hosts that read and write their objects on the same ones.
 
  private:
   struct Impl;

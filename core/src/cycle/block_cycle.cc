@@ -174,9 +174,7 @@ void BlockCycle::MeasureChosen(std::vector<Residual>* residuals) {
 
 void BlockCycle::ReadErrors(std::vector<Residual>* residuals) const {
   if (residuals->size() < islands_.size()) residuals->resize(islands_.size());
-  for (size_t g = 0; g < chosen_.size(); ++g) {
-    if (chosen_[g].active) sweeps_->ErrorsOfIslands(frame_->plan().groups()[g], *residuals);
-  }
+  sweeps_->ErrorsOfIslands(chosen_, *residuals);
 }
 
 void BlockCycle::Leg() {
@@ -255,9 +253,7 @@ bool BlockCycle::MoveOn() {
 
 void BlockCycle::See(std::span<const GroupSweeps> groups) {
   const Plan& plan = frame_->plan();
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].active) sweeps_->ErrorsOfIslands(plan.groups()[g], after_);
-  }
+  sweeps_->ErrorsOfIslands(groups, after_);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (Done(i) || !groups[plan.islands()[i].group].active) continue;
     states_[i].seen = after_[i];

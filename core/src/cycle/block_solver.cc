@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/threads.h"
 #include "problem/relaxation.h"
 
 namespace cairn {
 namespace {
-
-/// Problems of fewer rows stay on one thread: waiting for another would cost more than it does.
-constexpr size_t kParallelRows = 4096;
 
 /// Sums of energy are not finite if a term is not.
 bool AreFinite(std::span<const IslandReport> islands) {
@@ -19,11 +17,15 @@ bool AreFinite(std::span<const IslandReport> islands) {
   });
 }
 
-/// Keeps helpers awake while it lives.
+/// Keeps helpers awake while it lives, unless somebody else does.
 class Shift {
  public:
-  explicit Shift(Crew* crew) : crew_(crew) { crew_->Call(); }
-  ~Shift() { crew_->Dismiss(); }
+  Shift(Crew* crew, int threads) : crew_(crew->called() ? nullptr : crew) {
+    if (crew_ != nullptr) crew_->Call(threads);
+  }
+  ~Shift() {
+    if (crew_ != nullptr) crew_->Dismiss();
+  }
   Shift(const Shift&) = delete;
   Shift& operator=(const Shift&) = delete;
 
@@ -36,11 +38,12 @@ class Shift {
 PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
                               BudgetMeter* meter, const Impulses& impulses,
                               std::span<Velocity> velocities, Report* report) {
-  crew_.Follow(settings.threads, settings.executor);
-  const size_t rows = AllRows(problem);
-  Crew* const crew = rows < kParallelRows ? &alone_ : &crew_;
-  crew->RecordTo(settings.tuning.spans);
-  const Shift shift(crew);
+  crew_->Follow(settings.threads, settings.executor);
+  // waiting for another thread would cost more than it does, where there is little to do
+  const int threads = detail::ThreadsFor(static_cast<int>(AllRows(problem)), settings.threads);
+  Crew* const crew = threads == 1 ? &alone_ : crew_;
+  if (!crew->called()) crew->RecordTo(settings.tuning.spans);
+  const Shift shift(crew, threads);
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
   cycle_.Run(problem, settings, &frame_, &memories_, meter, crew, report);

@@ -17,6 +17,9 @@ namespace cairn {
 /// Solves contact problems on kernels, in floats, colour by colour, on threads.
 class BlockSolver {
  public:
+  /// @p crew: as the settings of each Solve() say
+  explicit BlockSolver(Crew* crew) : crew_(crew) {}
+
   /// kDone: solved, and the islands of the report are filled in. Otherwise nothing is written: on
   /// kChanged the input is not valid, on kOutOfRange floats do not do.
   [[nodiscard]] PackResult Solve(const ContactProblem& problem, const Settings& settings,
@@ -31,7 +34,8 @@ class BlockSolver {
   BlockFrame frame_;
   BlockCycle cycle_;
   IslandMemories memories_;
-  Crew crew_{1}, alone_{1};
+  Crew* crew_;
+  Crew alone_{1};
 };
 
 }  // namespace cairn

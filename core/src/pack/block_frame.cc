@@ -8,12 +8,15 @@
 
 #include "pack/manifold_pack.h"
 #include "problem/validate.h"
+#include "runtime/in_parts.h"
 
 namespace cairn {
 namespace {
 
 /// Bodies that one thread whitens, or writes back, at a time.
 constexpr int kBodiesOfUnit = 256;
+/// Velocities that one thread looks at, or brings to rest, at a time.
+constexpr int kSlotsOfUnit = 1024;
 /// Rows whose laws one thread reads at a time.
 constexpr int kRowsOfUnit = 1024;
 
@@ -36,40 +39,37 @@ class Finiteness {
   float zeros_[kCount] = {};
 };
 
-/// One stage of units that are all alike.
+/// Whether something holds for all indices below a number.
 template <class Function>
-class Parts final : public StagedWork {
- public:
-  Parts(int units, const Function& function) : units_(units), function_(function) {}
-  int stages() const override { return 1; }
-  int units(int) const override { return units_; }
-  void Do(int, int unit) override { function_(unit); }
+bool HoldsForAll(size_t count, Crew* crew, const Function& holds) {
+  std::atomic<bool> all{true};
+  InParts(static_cast<int>(count), kRowsOfUnit, crew, [&](int first, int of_part) {
+    for (int i = first; i < first + of_part; ++i) {
+      if (!holds(i)) return all.store(false, std::memory_order_relaxed);
+    }
+  });
+  return all;
+}
 
- private:
-  int units_;
-  const Function& function_;
-};
-
-/// function(first, count) for all parts of a range.
-template <class Function>
-void InParts(int size, int of_part, Crew* crew, const Function& function) {
-  const auto part = [&](int unit) {
-    const int first = unit * of_part;
-    function(first, std::min(of_part, size - first));
-  };
-  Parts parts((size + of_part - 1) / of_part, part);
-  crew->Run(&parts);
+bool AreValid(const ContactProblem& problem, Crew* crew) {
+  return HoldsForAll(problem.joints.size(), crew,
+                     [&](size_t i) {
+                       return ValidateJoint(problem, static_cast<int>(i)) == Status::kOk;
+                     }) &&
+         HoldsForAll(problem.manifolds.size(), crew, [&](size_t i) {
+           return ValidateManifold(problem, static_cast<int>(i)) == Status::kOk;
+         });
 }
 
 /// The whole plan, stage by stage, with one kernel.
 class Pass final : public StagedWork {
  public:
   Pass(BlockFrame* frame, simd::PairKernels::Kernel kernel) : frame_(frame), kernel_(kernel) {}
-  int stages() const override { return static_cast<int>(frame_->plan().stages().size()); }
-  int units(int stage) const override { return frame_->plan().stages()[stage].units; }
+  int stages() const override { return static_cast<int>(frame_->plan().phases().size()); }
+  int units(int stage) const override { return frame_->plan().phases()[stage].units; }
   void Do(int stage, int unit) override {
     const Plan& plan = frame_->plan();
-    const Unit& of = plan.units()[plan.stages()[stage].first_unit + unit];
+    const Unit& of = plan.units()[plan.phases()[stage].first_unit + unit];
     kernel_(frame_->WorkOn(of.first_block, of.blocks));
   }
 
@@ -132,31 +132,29 @@ BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
           .contacts = *contact_kernels_};
 }
 
-bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem) const {
+bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem, Crew* crew) const {
   // where their rows and points are is not part of the plan
-  const auto same = [](const auto& a, const auto& b) {
-    return a.body_a == b.body_a && a.body_b == b.body_b && HasLawOf(a, b);
+  const auto same = [crew](const auto& now, const auto& planned) {
+    return now.size() == planned.size() && HoldsForAll(now.size(), crew, [&](size_t i) {
+             return now[i].body_a == planned[i].body_a && now[i].body_b == planned[i].body_b &&
+                    HasLawOf(now[i], planned[i]);
+           });
   };
-  return std::ranges::equal(problem.joints, planned_joints_, same) &&
-         std::ranges::equal(problem.manifolds, planned_manifolds_, same);
+  return same(problem.joints, planned_joints_) && same(problem.manifolds, planned_manifolds_);
 }
 
 PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const Impulses& impulses,
                              Crew* crew) {
+  crew_ = crew;
   const PackResult whitened = WhitenBodies(problem, crew);
   if (whitened != PackResult::kDone) return whitened;
   if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kChanged;
-  for (int i = 0; i < static_cast<int>(problem.joints.size()); ++i) {
-    if (ValidateJoint(problem, i) != Status::kOk) return PackResult::kChanged;
-  }
-  for (int i = 0; i < static_cast<int>(problem.manifolds.size()); ++i) {
-    if (ValidateManifold(problem, i) != Status::kOk) return PackResult::kChanged;
-  }
+  if (!AreValid(problem, crew)) return PackResult::kChanged;
 
   // the plan of the last frame, if nothing began or ended
   PackResult result = PackResult::kChanged;
   const bool alike = planned_ && omega == omega_ && problem.rows.size() == planned_rows_ &&
-                     movable_now_ == movable_ && SameJointsAndManifolds(problem);
+                     movable_now_ == movable_ && SameJointsAndManifolds(problem, crew);
   if (alike) result = Pack(problem, impulses, crew);
   if (result == PackResult::kChanged) {
     planned_ = MakePlan(problem, omega, impulses.rows, crew);
@@ -186,7 +184,7 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
       valid.store(false, std::memory_order_relaxed);
     }
   });
-  return valid && plan_.Make(problem, laws_, movable_);
+  return valid && plan_.Make(problem, laws_, movable_, crew);
 }
 
 PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
@@ -220,25 +218,33 @@ PackResult BlockFrame::Pack(const ContactProblem& problem, const Impulses& impul
     if (worst.get() != PackResult::kDone) return;
     worst.Add(packer.Pack(of.first_block, of.blocks, impulses, &blocks_));
   };
-  Parts parts(static_cast<int>(plan_.units().size()), pack);
-  crew->Run(&parts);
+  ForUnits(static_cast<int>(plan_.units().size()), crew, pack);
   return worst.get();
 }
 
 void BlockFrame::Start(Crew* crew) {
-  std::memset(static_cast<void*>(blocks_.bodies.data()), 0,
-              plan_.body_of_slot().size() * sizeof(simd::BodyLane));
+  InParts(static_cast<int>(plan_.body_of_slot().size()), kSlotsOfUnit, crew,
+          [&](int first, int count) {
+            std::memset(static_cast<void*>(blocks_.bodies.data() + first), 0,
+                        count * sizeof(simd::BodyLane));
+          });
   Pass pass(this, kernels_->start);
   crew->Run(&pass);
 }
 
 bool BlockFrame::IsFinite() const {
   // an impulse that is not finite has pushed a body
-  Finiteness<kNumbersOfBody> velocities;
-  for (size_t slot = 0; slot < plan_.body_of_slot().size(); ++slot) {
-    velocities.See(blocks_.bodies[slot].u);
-  }
-  return velocities.all();
+  std::atomic<bool> all{true};
+  InParts(static_cast<int>(plan_.body_of_slot().size()), kSlotsOfUnit, crew_,
+          [&](int first, int count) {
+            Finiteness<kNumbersOfBody> velocities;
+            for (int slot = first; slot < first + count; ++slot) {
+              velocities.See(blocks_.bodies[slot].u);
+            }
+            if (!velocities.all()) all.store(false, std::memory_order_relaxed);
+          },
+          {SpanKind::kResults});
+  return all;
 }
 
 void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& impulses,
@@ -248,8 +254,7 @@ void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& 
     const Unit& of = plan_.units()[unit];
     packer.WriteImpulses(of.first_block, of.blocks, blocks_, impulses);
   };
-  Parts parts(static_cast<int>(plan_.units().size()), write);
-  crew->Run(&parts);
+  ForUnits(static_cast<int>(plan_.units().size()), crew, write);
   InParts(static_cast<int>(problem.bodies.size()), kBodiesOfUnit, crew,
           [&](int first, int count) { packer.WriteVelocities(first, count, blocks_, velocities); });
 }

@@ -39,6 +39,8 @@ class BlockFrame {
   simd::Target target() const { return target_; }
   const simd::PairKernels& kernels() const { return *kernels_; }
   const simd::LaneKernels& lane_kernels() const { return *lane_kernels_; }
+  /// Who works on the frame that has begun.
+  Crew* crew() const { return crew_; }
 
   /// The work of some blocks of the plan.
   simd::PairWork WorkOn(int first_block, int blocks);
@@ -48,7 +50,7 @@ class BlockFrame {
   bool MakePlan(const ContactProblem& problem, double omega, std::span<const double> impulses,
                 Crew* crew);
   PackResult Pack(const ContactProblem& problem, const Impulses& impulses, Crew* crew);
-  bool SameJointsAndManifolds(const ContactProblem& problem) const;
+  bool SameJointsAndManifolds(const ContactProblem& problem, Crew* crew) const;
   void Start(Crew* crew);
   BlockPacker PackerOf(const ContactProblem& problem) const;
 
@@ -58,6 +60,7 @@ class BlockFrame {
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
   simd::JointRowsKernel pack_joints_ = simd::JointRowsKernelFor(target_);
   const simd::ContactKernels* contact_kernels_ = &simd::ContactKernelsFor(target_);
+  Crew* crew_ = nullptr;
   Plan plan_;
   std::vector<RowLaw> laws_;
   std::vector<Joint> planned_joints_;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "runtime/in_parts.h"
+
 namespace cairn {
 namespace {
 
@@ -37,12 +39,15 @@ bool Shares(const simd::PairBlock& block, int a, int b) {
 }  // namespace
 
 bool Plan::Make(const ContactProblem& problem, std::span<const RowLaw> laws,
-                const MovableBodies& movable) {
+                const MovableBodies& movable, Crew* crew) {
   const std::span<const Body> bodies = problem.bodies;
   if (!pair_finder_.Find(laws, problem, movable, &shapes_, &list_)) return false;
-  colouring_.Update(bodies, list_.pairs);
-  FindIslands(static_cast<int>(bodies.size()));
-  FindGroups();
+  // neither needs the other
+  ForUnits(2, crew, [&](int half) {
+    if (half == 0) return colouring_.Update(bodies, list_.pairs);
+    FindIslands(static_cast<int>(bodies.size()));
+    FindGroups();
+  });
   SortPairs();
   GiveSlots(bodies.size());
   FillBlocks();
@@ -260,17 +265,29 @@ int Plan::RowsOf(int first_block, int end_block) const {
   return rows;
 }
 
+void Plan::AddStage(Follows follows) {
+  const int stage = static_cast<int>(stages_.size()), unit = static_cast<int>(units_.size());
+  if (follows == Follows::kNothing) phases_.push_back({.first_stage = stage, .first_unit = unit});
+  stages_.push_back({.first_unit = unit});
+  ++phases_.back().stages;
+}
+
+void Plan::AddUnit(const Unit& unit) {
+  units_.push_back(unit);
+  ++stages_.back().units;
+  stages_.back().rows += unit.rows;
+  ++phases_.back().units;
+}
+
 void Plan::AddUnits(int first_block, int end_block, int group) {
   // blocks of one colour, a stage at a time
   for (int b = first_block; b < end_block;) {
-    stages_.push_back({.first_unit = static_cast<int>(units_.size())});
-    for (int rows = 0; b < end_block && rows < kStageRows;) {
+    AddStage(b == first_block ? Follows::kNothing : Follows::kLastPhase);
+    while (b < end_block && stages_.back().rows < kStageRows) {
       Unit unit{.first_block = b, .group = group};
       for (; b < end_block && unit.rows < kUnitRows; ++b) unit.rows += RowsOf(b, b + 1);
       unit.blocks = b - unit.first_block;
-      rows += unit.rows;
-      units_.push_back(unit);
-      ++stages_.back().units;
+      AddUnit(unit);
     }
   }
 }
@@ -294,12 +311,13 @@ void Plan::StagesOf(int g) {
     for (; b < next; ++b) {
       const int more = RowsOf(b, b + 1);
       if (!tail || units_.back().rows + more > kTinyColoursRows) {
-        stages_.push_back({.first_unit = static_cast<int>(units_.size()), .units = 1});
-        units_.push_back({.first_block = b, .group = g});
+        AddStage(Follows::kNothing);
+        AddUnit({.first_block = b, .group = g});
         tail = true;
       }
       ++units_.back().blocks;
       units_.back().rows += more;
+      stages_.back().rows += more;
     }
   }
 }
@@ -307,22 +325,25 @@ void Plan::StagesOf(int g) {
 void Plan::FindStages() {
   units_.clear();
   stages_.clear();
+  phases_.clear();
+  bool whole = false;     // the last stage is one of whole groups
   int rows = kStageRows;  // of the last stage of whole groups
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     const Group& group = groups_[g];
     if (group.rows > kGroupRows) {
       StagesOf(g);
+      whole = false;
       continue;
     }
-    if (rows >= kStageRows) {
-      stages_.push_back({.first_unit = static_cast<int>(units_.size())});
+    if (rows >= kStageRows || !whole) {
+      AddStage(whole ? Follows::kLastPhase : Follows::kNothing);
+      whole = true;
       rows = 0;
     }
-    units_.push_back({.first_block = group.first_block,
-                      .blocks = group.blocks,
-                      .group = g,
-                      .rows = static_cast<int>(group.rows)});
-    ++stages_.back().units;
+    AddUnit({.first_block = group.first_block,
+             .blocks = group.blocks,
+             .group = g,
+             .rows = static_cast<int>(group.rows)});
     rows += static_cast<int>(group.rows);
   }
 }

@@ -10,6 +10,7 @@
 #include "plan/pairs.h"
 #include "plan/row_law.h"
 #include "problem/islands.h"
+#include "runtime/crew.h"
 #include "simd/pairs/pair_block.h"
 
 namespace cairn {
@@ -42,6 +43,13 @@ struct Unit {
 /// in their order.
 struct Stage {
   int first_unit = 0, units = 0;
+  int rows = 0;
+};
+
+/// Stages that follow each other, and share no movable body either.
+struct Phase {
+  int first_stage = 0, stages = 0;
+  int first_unit = 0, units = 0;
 };
 
 /// The order of work, from the structure of the problem and what was planned before: pairs keep
@@ -53,7 +61,7 @@ class Plan {
   /// the plan is then of no use.
   /// @pre bodies, joints and manifolds of the problem are valid
   [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const RowLaw> laws,
-                          const MovableBodies& movable);
+                          const MovableBodies& movable, Crew* crew);
 
   std::span<const simd::PairBlock> blocks() const { return blocks_; }
   /// Pair of a lane. @pre lane < blocks()[block].lanes
@@ -70,6 +78,8 @@ class Plan {
 
   std::span<const Group> groups() const { return groups_; }
   std::span<const Stage> stages() const { return stages_; }
+  /// All stages, in their order: what is to be done without a look at the budget in between.
+  std::span<const Phase> phases() const { return phases_; }
   std::span<const Unit> units() const { return units_; }
   std::span<const PlannedIsland> islands() const { return islands_; }
   /// -1 for a body without rows.
@@ -98,6 +108,10 @@ class Plan {
   void FindStages();
   void StagesOf(int group);
   void AddUnits(int first_block, int end_block, int group);
+  /// Begins a stage: a phase of its own, or one more of the last.
+  enum class Follows { kNothing, kLastPhase };
+  void AddStage(Follows follows);
+  void AddUnit(const Unit& unit);
   int RowsOf(int first_block, int end_block) const;
 
   ShapeTable shapes_;
@@ -120,6 +134,7 @@ class Plan {
   std::vector<int> slot_of_body_, body_of_slot_;
   std::vector<Unit> units_;
   std::vector<Stage> stages_;
+  std::vector<Phase> phases_;
   int data_lines_ = 0, x_lines_ = 0;
   int unmoved_slot_ = 0;  ///< next one for a pair that cannot move
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/crew.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <bit>
@@ -21,6 +22,8 @@ namespace {
 constexpr int kSpins = 4000;
 /// Units of a stage that can be claimed one by one; more are claimed several at a time.
 constexpr int kClaims = 256;
+/// And for each thread: more would balance better than stages need, and cost more to claim.
+constexpr int kClaimsOfThread = 16;
 
 void Pause() {
 #if defined(__SSE2__)
@@ -93,17 +96,18 @@ class Board {
   }
   void Close() { open_.store(false, std::memory_order_release); }
   bool open() const { return open_.load(std::memory_order_relaxed); }
+  int most_helpers() const { return most_helpers_.load(std::memory_order_relaxed); }
 
   /// The caller: does one stage with whoever is there.
   void DoStage(StagedWork* work, int stage) {
     const int units = work->units(stage);
     SpanRecorder* const recorder = recorder_.load(std::memory_order_relaxed);
     if (units <= 1 || !open()) {
-      const SpanClock clock(recorder, 0, LabelOf(recorder, *work, stage));
+      const SpanClock clock(recorder, 0, LabelOf(recorder, *work, stage), units);
       for (int unit = 0; unit < units; ++unit) work->Do(stage, unit);
       return;
     }
-    const int claims = units < kClaims ? units : kClaims;
+    const int claims = std::min({units, kClaims, kClaimsOfThread * (most_helpers() + 1)});
     work_.store(work, std::memory_order_relaxed);
     stage_.store(stage, std::memory_order_relaxed);
     units_.store(units, std::memory_order_relaxed);
@@ -210,7 +214,7 @@ class Board {
     const int begin = static_cast<int>(units * claim / claims);
     const int end = static_cast<int>(units * (claim + 1) / claims);
     SpanRecorder* const recorder = recorder_.load(std::memory_order_relaxed);
-    const SpanClock clock(recorder, lane, LabelOf(recorder, *work, stage));
+    const SpanClock clock(recorder, lane, LabelOf(recorder, *work, stage), end - begin);
     for (int unit = begin; unit < end; ++unit) work->Do(stage, unit);
   }
 
@@ -238,7 +242,8 @@ struct Crew::Impl {
     board->Release();
   }
 
-  int threads;
+  int asked;    ///< threads that the settings ask for
+  int threads;  ///< that there can be
   Executor* given;
   std::unique_ptr<Executor> own;
   Board* board = new Board;
@@ -246,16 +251,18 @@ struct Crew::Impl {
 };
 
 Crew::Crew(int threads, Executor* executor) : impl_(std::make_unique<Impl>()) {
-  impl_->threads = threads;
+  impl_->asked = impl_->threads = threads;
   impl_->given = executor;
-  if (threads > 1 && executor == nullptr) impl_->own = MakeTbbExecutor(threads);
+  if (threads == 1 || executor != nullptr) return;
+  impl_->threads = std::min(threads, MostTbbThreads());
+  if (impl_->threads > 1) impl_->own = MakeTbbExecutor(impl_->threads);
 }
 Crew::~Crew() = default;
 Crew::Crew(Crew&&) noexcept = default;
 Crew& Crew::operator=(Crew&&) noexcept = default;
 
 void Crew::Follow(int threads, Executor* executor) {
-  const bool same = impl_->threads == threads && impl_->given == executor;
+  const bool same = impl_->asked == threads && impl_->given == executor;
   if (!same) *this = Crew(threads, executor);
 }
 
@@ -265,15 +272,16 @@ void Crew::RecordTo(SpanRecorder* recorder) {
 }
 SpanRecorder* Crew::recorder() const { return impl_->recorder; }
 
-void Crew::Call() {
-  if (impl_->threads == 1) return;
+void Crew::Call(int most) {
+  const int threads = std::min(most, impl_->threads);
+  if (threads <= 1) return;
   Board* const board = impl_->board;
-  board->Open(impl_->threads - 1);
+  board->Open(threads - 1);
   Executor* const executor = impl_->given != nullptr ? impl_->given : impl_->own.get();
   const auto task = [](void* what) { static_cast<Board*>(what)->RunTask(); };
   try {
     // those that return at once are not asked for again
-    for (int i = 1; i < impl_->threads && board->Expect(); ++i) {
+    for (int i = 1; i < threads && board->Expect(); ++i) {
       board->AddTask();
       executor->Submit(task, board);
     }
@@ -286,6 +294,8 @@ void Crew::Call() {
 }
 
 void Crew::Dismiss() { impl_->board->Close(); }
+bool Crew::called() const { return impl_->board->open(); }
+int Crew::threads() const { return called() ? impl_->board->most_helpers() + 1 : 1; }
 
 namespace {
 
@@ -306,9 +316,13 @@ class Closing {
 }  // namespace
 
 void Crew::Run(StagedWork* work) {
-  const bool called_before = impl_->board->open();
+  const bool called_before = called();
   if (!called_before) Call();
   const Closing closing(called_before ? nullptr : impl_->board);
+  RunWithThoseHere(work);
+}
+
+void Crew::RunWithThoseHere(StagedWork* work) {
   for (int stage = 0; stage < work->stages() && work->GoOn(stage); ++stage) {
     impl_->board->DoStage(work, stage);
   }

@@ -34,7 +34,7 @@ class StagedWork {
 class Crew {
  public:
   /// @p threads: the caller included, in [1, 1024]; one starts no others. Without an executor
-  /// oneTBB provides the helpers.
+  /// oneTBB provides the helpers, as many as it has.
   explicit Crew(int threads, Executor* executor = nullptr);
   ~Crew();
   Crew(Crew&&) noexcept;
@@ -47,14 +47,21 @@ class Crew {
   void RecordTo(SpanRecorder* recorder);
   SpanRecorder* recorder() const;
 
-  /// Calls helpers, who stay until Dismiss(). Run() does so itself where nobody did before.
-  void Call();
+  /// Calls helpers, who stay until Dismiss(): @p most threads in all. Run() does so itself where
+  /// nobody did before.
+  void Call(int most = kMostThreads);
   void Dismiss();
+  bool called() const;
+  /// That may be at work now: more than one between Call() and Dismiss().
+  int threads() const;
 
   /// Does all units of all stages, stage after stage, each unit once.
   void Run(StagedWork* work);
+  /// The same, but calls nobody.
+  void RunWithThoseHere(StagedWork* work);
 
  private:
+  static constexpr int kMostThreads = 1024;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "runtime/executor_tbb.h"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
@@ -26,6 +27,11 @@ class TbbExecutor final : public Executor {
 };
 
 }  // namespace
+
+int MostTbbThreads() {
+  return static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
 
 std::unique_ptr<Executor> MakeTbbExecutor(int threads) {
   return std::make_unique<TbbExecutor>(threads);

@@ -65,8 +65,10 @@ void SpanRecorder::Add(int worker, const Span& span) {
   Lane& lane = lanes_[worker];
   if (lane.size > 0) {
     Span& last = lane.spans[lane.size - 1];
-    if (last.label == span.label && span.begin >= last.end && span.begin - last.end <= kSame) {
+    if (last.label == span.label && (last.units > 0) == (span.units > 0) &&
+        span.begin >= last.end && span.begin - last.end <= kSame) {
       last.end = span.end;
+      last.units += span.units;
       return;
     }
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "runtime/in_parts.h"
+
 namespace cairn {
 namespace {
 
@@ -79,69 +81,93 @@ void IslandMerits::Find(BlockFrame* frame, std::span<const GroupSweeps> groups) 
     merits_.resize(plan.islands().size());
     scales_.resize(plan.islands().size());
   }
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].active) FindOfGroup(frame, plan.groups()[g]);
+  const size_t lanes = plan.blocks().size() * kLanes;
+  if (gains_.size() < lanes) gains_.resize(lanes);
+  if (without_zero_.size() < plan.blocks().size()) without_zero_.resize(plan.blocks().size());
+  const size_t squares = lanes + plan.body_of_slot().size();
+  if (squares_.size() < squares) squares_.resize(squares);
+  ForUnits(static_cast<int>(plan.units().size()), frame->crew(),
+           [&](int i) {
+             const Unit& unit = plan.units()[i];
+             if (groups[unit.group].active) FindOfUnit(frame, unit);
+           },
+           {SpanKind::kGuard});
+  ForUnits(static_cast<int>(groups.size()), frame->crew(),
+           [&](int g) {
+             if (groups[g].active) FindOfGroup(frame, plan.groups()[g]);
+           },
+           {SpanKind::kGuard});
+}
+
+void IslandMerits::FindOfUnit(BlockFrame* frame, const Unit& unit) {
+  const Plan& plan = frame->plan();
+  const BlockData& data = frame->blocks();
+  const simd::LaneKernels& kernels = frame->lane_kernels();
+  double* const squares = SquaresOf(plan.groups()[unit.group]);
+  simd::LaneGains of_block;
+  for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x, &of_block);
+    // lanes that are not used count for nothing
+    std::fill(of_block.gain + block.lanes, of_block.gain + kLanes, 0);
+    std::fill(of_block.square + block.lanes, of_block.square + kLanes, 0);
+    const int of_group = b - plan.groups()[unit.group].first_block;
+    std::copy_n(of_block.gain, kLanes, gains_.data() + size_t{kLanes} * b);
+    std::copy_n(of_block.square, kLanes, squares + size_t{kLanes} * of_group);
+    without_zero_[b] = WithoutZero(block, data);
   }
+}
+
+double* IslandMerits::SquaresOf(const Group& group) {
+  return squares_.data() + size_t{kLanes} * group.first_block + group.first_slot;
 }
 
 void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
   const Plan& plan = frame->plan();
-  const BlockData& data = frame->blocks();
-  const simd::LaneKernels& kernels = frame->lane_kernels();
-  const auto most_lanes = static_cast<size_t>(group.blocks) * kLanes;
-  const size_t most_squares = most_lanes + static_cast<size_t>(group.slots);
-  if (gains_.size() < most_lanes) gains_.resize(most_lanes);
-  if (squares_.size() < most_squares) squares_.resize(most_squares);
   for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
     merits_[i] = {};
   }
-  simd::LaneGains of_block;
-  size_t lanes = 0;
-  for (int b = 0; b < group.blocks; ++b) {
-    const simd::PairBlock& block = plan.blocks()[group.first_block + b];
-    kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x, &of_block);
-    std::copy_n(of_block.gain, block.lanes, gains_.data() + lanes);
-    std::copy_n(of_block.square, block.lanes, squares_.data() + lanes);
-    lanes += static_cast<size_t>(block.lanes);
-    const std::uint32_t without = WithoutZero(block, data);
-    for (int l = 0; l < block.lanes && without != 0; ++l) {
-      if ((without >> l & 1) == 0) continue;
-      merits_[plan.island_of(group.first_block + b, l)].may_be_none = false;
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    for (int l = 0; l < plan.blocks()[b].lanes && without_zero_[b] != 0; ++l) {
+      if ((without_zero_[b] >> l & 1) == 0) continue;
+      merits_[plan.island_of(b, l)].may_be_none = false;
     }
   }
-  kernels.find_squares(data.bodies.data() + group.first_slot, group.slots, squares_.data() + lanes);
+  frame->lane_kernels().find_squares(frame->blocks().bodies.data() + group.first_slot, group.slots,
+                                     SquaresOf(group) + size_t{kLanes} * group.blocks);
   if (group.islands == 1) {
-    AddWhole(kernels, lanes, lanes + static_cast<size_t>(group.slots),
-             plan.islands_of_groups()[group.first_island]);
+    AddWhole(frame->lane_kernels(), group, plan.islands_of_groups()[group.first_island]);
   } else {
-    AddShared(plan, group, lanes);
+    AddShared(plan, group);
   }
 }
 
-void IslandMerits::AddWhole(const simd::LaneKernels& kernels, size_t gains, size_t squares,
-                            int island) {
-  const auto sum = [&](const std::vector<double>& numbers, size_t size) {
-    const int count = static_cast<int>(size);
-    const double scale = ScaleOf(kernels.find_most(numbers.data(), count));
-    return kernels.add_rounded(numbers.data(), count, scale) / scale;
+void IslandMerits::AddWhole(const simd::LaneKernels& kernels, const Group& group, int island) {
+  const auto sum = [&](const double* numbers, int count) {
+    const double scale = ScaleOf(kernels.find_most(numbers, count));
+    return kernels.add_rounded(numbers, count, scale) / scale;
   };
-  merits_[island].gain = sum(gains_, gains);
-  merits_[island].square = sum(squares_, squares);
+  const int lanes = kLanes * group.blocks;
+  merits_[island].gain = sum(gains_.data() + size_t{kLanes} * group.first_block, lanes);
+  merits_[island].square = sum(SquaresOf(group), lanes + group.slots);
 }
 
-void IslandMerits::AddShared(const Plan& plan, const Group& group, size_t lanes) {
+void IslandMerits::AddShared(const Plan& plan, const Group& group) {
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+  const size_t lanes = static_cast<size_t>(group.blocks) * kLanes;
+  const double* const gains = gains_.data() + size_t{kLanes} * group.first_block;
+  const double* const squares = SquaresOf(group);
   // add(island, gain, square) for all lanes and bodies
   const auto for_parts = [&](const auto& add) {
-    size_t at = 0;
     for (int b = 0; b < group.blocks; ++b) {
       const int* const of_lane = plan.islands_of(group.first_block + b);
       const int used = plan.blocks()[group.first_block + b].lanes;
-      for (int l = 0; l < used; ++l, ++at) add(of_lane[l], gains_[at], squares_[at]);
+      const size_t first = static_cast<size_t>(b) * kLanes;
+      for (int l = 0; l < used; ++l) add(of_lane[l], gains[first + l], squares[first + l]);
     }
     for (int slot = 0; slot < group.slots; ++slot) {
       const int body = plan.body_of_slot()[group.first_slot + slot];
-      if (body != kWorld) add(plan.island_of_body()[body], 0.0, squares_[lanes + slot]);
+      if (body != kWorld) add(plan.island_of_body()[body], 0.0, squares[lanes + slot]);
     }
   };
   for (int i : islands) scales_[i] = {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -67,11 +68,14 @@ class IslandMerits {
   const Merit& of(int island) const { return merits_[island]; }
 
  private:
+  /// Of blocks of a unit, into gains_ and squares_.
+  void FindOfUnit(BlockFrame* frame, const Unit& unit);
   void FindOfGroup(BlockFrame* frame, const Group& group);
-  // Sums of numbers that do not depend on their order. Of a group of one island, and of several;
-  // gains and squares are those of its lanes, and after them squares of bodies.
-  void AddWhole(const simd::LaneKernels& kernels, size_t gains, size_t squares, int island);
-  void AddShared(const Plan& plan, const Group& group, size_t lanes);
+  // Sums of numbers that do not depend on their order. Of a group of one island, and of several.
+  void AddWhole(const simd::LaneKernels& kernels, const Group& group, int island);
+  void AddShared(const Plan& plan, const Group& group);
+  /// Where squares of a group are.
+  double* SquaresOf(const Group& group);
 
   std::vector<Merit> merits_;
   /// Bring the largest number of a sum to so many bits, by island.
@@ -79,7 +83,9 @@ class IslandMerits {
     double gain = 0, square = 0;
   };
   std::vector<Scale> scales_;
-  std::vector<double> gains_, squares_;  ///< of a group: by lane, squares of bodies after that
+  /// By lane of all blocks; group by group, squares by lane and then those of bodies.
+  std::vector<double> gains_, squares_;
+  std::vector<std::uint32_t> without_zero_;  ///< by block: lanes of rows that cannot be 0
 };
 
 /// Multiplies impulses and velocity changes of an island; 0 leaves nothing of what is not finite.

@@ -2,12 +2,18 @@
 #include "sweep/block_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "runtime/in_parts.h"
+
 namespace cairn {
 namespace {
+
+/// Errors of islands are added up: no pass over the plan.
+constexpr SpanLabel kErrors{SpanKind::kMeasure, 0, -1};
 
 /// Energies are summed as whole numbers of this many bits, of which doubles hold the sum of eight
 /// million exactly: in whatever order lanes come, an island has the same sum.
@@ -21,7 +27,8 @@ double ScaleOf(double largest) {
 
 }  // namespace
 
-/// So many sweeps, or one measurement, as work in stages.
+/// So many sweeps, or one measurement, as work in stages: those of the plan under a budget, which
+/// is looked at between them, and whole phases without one.
 class BlockSweeps::Pass final : public StagedWork {
  public:
   enum class Kind { kSweeps, kWholeSweeps, kMeasure };
@@ -29,25 +36,32 @@ class BlockSweeps::Pass final : public StagedWork {
   /// @p price: of a row, in work units.
   Pass(const BlockSweeps& sweeps, Kind kind, std::span<const GroupSweeps> groups, int count,
        double price)
-      : sweeps_(sweeps), kind_(kind), count_(count), price_(price), groups_(groups) {
+      : sweeps_(sweeps),
+        kind_(kind),
+        count_(count),
+        price_(price),
+        groups_(groups),
+        in_phases_(!sweeps.meter_->limited()) {
     for (const GroupSweeps& group : groups) {
       if (group.active) made_ = group.sweeps;
+      all_active_ = all_active_ && group.active;
     }
   }
 
   int stages() const override { return count_ * stages_of_sweep(); }
-  int units(int) const override { return units_; }
+  int units(int) const override { return pieces_; }
 
-  void Do(int stage, int unit) override {
-    const Unit& of = plan().units()[StageOf(stage).first_unit + unit];
-    if (!groups_[of.group].active) return;
+  void Do(int stage, int piece) override {
     const int sweep = stage / stages_of_sweep();
-    simd::PairWork work = sweeps_.frame_->WorkOn(of.first_block, of.blocks);
-    work.sweep = groups_[of.group].sweeps + sweep;
-    work.hold_lifted = sweeps_.settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
-    const simd::PairKernels& kernels = sweeps_.frame_->kernels();
-    const auto last = sweep == count_ - 1 ? kernels.measured_sweep : kernels.sweep;
-    (kind_ == Kind::kMeasure ? kernels.measure : last)(work);
+    if (phase_.units == pieces_) {
+      const Unit& unit = plan().units()[phase_.first_unit + piece];
+      return Work(sweep, unit.group, unit.first_block, unit.blocks);
+    }
+    const Unit& first = plan().units()[phase_.first_unit];
+    const auto begin_of = [&](std::int64_t i) {
+      return first.first_block + static_cast<int>(blocks_ * i / pieces_);
+    };
+    Work(sweep, first.group, begin_of(piece), begin_of(piece + 1) - begin_of(piece));
   }
 
   SpanLabel label(int stage) const override {
@@ -61,8 +75,12 @@ class BlockSweeps::Pass final : public StagedWork {
     const int sweeps = made_ + stage / stages_of_sweep();
     const bool must = kind_ != Kind::kSweeps || sweeps < LeastSweeps(sweeps_.settings_);
     if (sweeps_.meter_->spent() && !must) return false;
-    const double left = must ? kInfinity : sweeps_.meter_->work_left();
-    PlanStage(StageOf(stage), left);
+    const int of_sweep = stage % stages_of_sweep();
+    if (in_phases_) {
+      PlanPhase(plan().phases()[of_sweep]);
+    } else {
+      PlanStage(of_sweep, must ? kInfinity : sweeps_.meter_->work_left());
+    }
     return true;
   }
 
@@ -74,25 +92,82 @@ class BlockSweeps::Pass final : public StagedWork {
 
  private:
   const Plan& plan() const { return sweeps_.frame_->plan(); }
-  int stages_of_sweep() const { return static_cast<int>(plan().stages().size()); }
-  const Stage& StageOf(int stage) const { return plan().stages()[stage % stages_of_sweep()]; }
+  int stages_of_sweep() const {
+    return static_cast<int>(in_phases_ ? plan().phases().size() : plan().stages().size());
+  }
+
+  void Work(int sweep, int group, int first_block, int blocks) {
+    if (!groups_[group].active) return;
+    simd::PairWork work = sweeps_.frame_->WorkOn(first_block, blocks);
+    work.sweep = groups_[group].sweeps + sweep;
+    work.hold_lifted = sweeps_.settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
+    const simd::PairKernels& kernels = sweeps_.frame_->kernels();
+    const auto last = sweep == count_ - 1 ? kernels.measured_sweep : kernels.sweep;
+    (kind_ == Kind::kMeasure ? kernels.measure : last)(work);
+  }
 
   /// As many of its units as the work that is left allows, but one at least.
-  void PlanStage(const Stage& stage, double left) {
-    units_ = 0;
+  void PlanStage(int number, double left) {
+    const Stage& stage = plan().stages()[number];
+    phase_ = {.first_stage = number, .stages = 1, .first_unit = stage.first_unit};
     rows_ = 0;
-    for (; units_ < stage.units; ++units_) {
-      const Unit& unit = plan().units()[stage.first_unit + units_];
+    for (; phase_.units < stage.units; ++phase_.units) {
+      const Unit& unit = plan().units()[stage.first_unit + phase_.units];
       if (!groups_[unit.group].active) continue;
       if (rows_ > 0 && rows_ >= left) break;
       rows_ += unit.rows;
     }
-    if (units_ == stage.units) ++whole_stages_;
+    pieces_ = phase_.units;
+    if (phase_.units == stage.units) ++whole_stages_;
+  }
+
+  /// All of it, in as many pieces as threads can share. Blocks of a colour may be cut anywhere.
+  void PlanPhase(const Phase& phase) {
+    constexpr int kPiecesOfThread = 4;
+    phase_ = phase;
+    ++whole_stages_;
+    pieces_ = phase.units;
+    const Unit &first = plan().units()[phase.first_unit],
+               &last = plan().units()[phase.first_unit + phase.units - 1];
+    if (phase.units <= 1 || first.group != last.group) {
+      if (!all_active_ && RowsOf(phase) == 0) pieces_ = 0;
+      return;
+    }
+    if (!groups_[first.group].active) {
+      pieces_ = 0;
+      return;
+    }
+    blocks_ = last.first_block + last.blocks - first.first_block;
+    const int wanted = kPiecesOfThread * sweeps_.crew_->threads();
+    pieces_ = static_cast<int>(std::min<std::int64_t>(blocks_, std::max(1, wanted)));
+    // equal numbers would be taken for units
+    if (pieces_ == phase.units) phase_.units = -1;
+  }
+
+  /// Those of active groups.
+  std::int64_t RowsOf(const Phase& phase) const {
+    std::int64_t rows = 0;
+    for (int i = 0; i < phase.stages; ++i) rows += RowsOf(plan().stages()[phase.first_stage + i]);
+    return rows;
+  }
+  std::int64_t RowsOf(const Stage& stage) const {
+    if (all_active_) return stage.rows;
+    std::int64_t rows = 0;
+    for (const Unit& unit : plan().units().subspan(stage.first_unit, stage.units)) {
+      if (groups_[unit.group].active) rows += unit.rows;
+    }
+    return rows;
   }
 
   void ChargeLast() {
-    const double rows = static_cast<double>(std::exchange(rows_, 0));
-    if (rows > 0 && price_ > 0) sweeps_.meter_->Charge(WorkKind::kSweep, price_ * rows);
+    const Phase phase = std::exchange(phase_, {});
+    if (!in_phases_) return Charge(std::exchange(rows_, 0));
+    // stage by stage, whatever was done at a time: the sum is the same
+    for (int i = 0; i < phase.stages; ++i) Charge(RowsOf(plan().stages()[phase.first_stage + i]));
+  }
+  void Charge(std::int64_t rows) {
+    if (rows == 0 || price_ <= 0) return;
+    sweeps_.meter_->Charge(WorkKind::kSweep, price_ * static_cast<double>(rows));
   }
 
   const BlockSweeps& sweeps_;
@@ -100,10 +175,14 @@ class BlockSweeps::Pass final : public StagedWork {
   const int count_;
   const double price_;
   std::span<const GroupSweeps> groups_;
-  int made_ = 0;           ///< sweeps before this pass
-  int whole_stages_ = 0;   ///< planned so far
-  int units_ = 0;          ///< of the present stage
-  std::int64_t rows_ = 0;  ///< in them
+  const bool in_phases_;
+  bool all_active_ = true;
+  int made_ = 0;             ///< sweeps before this pass
+  int whole_stages_ = 0;     ///< or phases, planned so far
+  Phase phase_;              ///< what is being done
+  int pieces_ = 0;           ///< of it
+  std::int64_t blocks_ = 0;  ///< of it, where pieces are not units
+  std::int64_t rows_ = 0;    ///< of it, under a budget
 };
 
 bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
@@ -139,7 +218,66 @@ void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
   pass.Finish();
 }
 
-void BlockSweeps::ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const {
+void BlockSweeps::ErrorsOfIslands(std::span<const GroupSweeps> groups,
+                                  std::span<Residual> residuals) {
+  const Plan& plan = frame_->plan();
+  ForUnits(
+      static_cast<int>(groups.size()), crew_,
+      [&](int g) {
+        const Group& group = plan.groups()[g];
+        if (groups[g].active && !IsForAll(group)) ErrorsOfGroup(group, residuals);
+      },
+      kErrors);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const Group& group = plan.groups()[g];
+    if (!groups[g].active || !IsForAll(group)) continue;
+    residuals[plan.islands_of_groups()[group.first_island]] = ErrorByAll(group);
+  }
+}
+
+bool BlockSweeps::IsForAll(const Group& group) const {
+  return group.islands == 1 && group.blocks >= kManyBlocks && crew_->threads() > 1;
+}
+
+Residual BlockSweeps::ErrorByAll(const Group& group) const {
+  constexpr int kParts = 16;
+  const simd::LaneKernels& kernels = frame_->lane_kernels();
+  const auto for_parts = [&](const auto& function) {
+    ForUnits(
+        kParts, crew_,
+        [&](int part) {
+          const int begin = group.blocks * part / kParts, end = group.blocks * (part + 1) / kParts;
+          const int first = group.first_block + begin;
+          function(part, frame_->plan().blocks().data() + first, frame_->errors().data() + first,
+                   end - begin);
+        },
+        kErrors);
+  };
+  std::array<simd::BlockError, kParts> largest = {};
+  for_parts([&](int part, const simd::PairBlock* blocks, const simd::BlockError* errors,
+                int count) { kernels.find_largest(blocks, errors, count, &largest[part]); });
+  const auto largest_of = [&](simd::Line simd::BlockError::*line) {
+    float most = 0;
+    for (const simd::BlockError& error : largest) {
+      for (const float lane : (error.*line).lane) most = std::max(most, lane);
+    }
+    return static_cast<double>(most);
+  };
+  const double scale = ScaleOf(largest_of(&simd::BlockError::energy));
+  std::array<std::array<double, simd::kLanes>, kParts> sums = {};
+  for_parts(
+      [&](int part, const simd::PairBlock* blocks, const simd::BlockError* errors, int count) {
+        kernels.add_energies(blocks, errors, count, scale, sums[part].data());
+      });
+  // whole numbers: in whatever order, the same sum
+  double whole = 0;
+  for (const auto& of_part : sums) whole = std::accumulate(of_part.begin(), of_part.end(), whole);
+  return {.max = largest_of(&simd::BlockError::max),
+          .max_angular = largest_of(&simd::BlockError::max_angular),
+          .energy = std::sqrt(whole / scale)};
+}
+
+void BlockSweeps::ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const {
   const Plan& plan = frame_->plan();
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
   if (islands.size() == 1 && !HasFewLanes(group)) {

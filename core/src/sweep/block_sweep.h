@@ -38,18 +38,23 @@ class BlockSweeps {
   /// Residuals likewise, free of charge: to keep and to write results, not to get to them.
   void MeasureFree(std::span<const GroupSweeps> groups);
 
-  /// What the errors of a group amount to, for each of its islands, into one entry for each of the
-  /// plan.
-  void ErrorsOfIslands(const Group& group, std::span<Residual> residuals) const;
+  /// What the errors of active groups amount to, for each of their islands, into one entry for each
+  /// of the plan.
+  void ErrorsOfIslands(std::span<const GroupSweeps> groups, std::span<Residual> residuals);
 
  private:
+  static constexpr int kManyBlocks = 128;
   class Pass;
   /// Returns how many sweeps were made.
   int Run(Pass* pass, std::span<GroupSweeps> groups);
   void MeasureAt(double price, std::span<const GroupSweeps> groups);
   /// A look at each of its lanes takes less time than one at whole lines.
   bool HasFewLanes(const Group& group) const;
-  /// Errors of a group that is one island.
+  void ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const;
+  /// A group of one island with more blocks than one thread looks at while others wait.
+  bool IsForAll(const Group& group) const;
+  Residual ErrorByAll(const Group& group) const;
+  /// The same of a group that is one island.
   Residual ErrorOfGroup(const Group& group) const;
   /// function(errors of a block, block, lane)
   template <class Function>

@@ -2,7 +2,10 @@
 #include "sweep/nncg.h"
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+
+#include "runtime/in_parts.h"
 
 namespace cairn {
 namespace {
@@ -129,14 +132,33 @@ void Nncg::See(int island, double energy) {
                    .keep = shrinks ? 1.0f : 0.0f};
 }
 
+void Nncg::Remember(const BlockData& now, Crew* crew) {
+  constexpr int kLinesOfPart = 1024;
+  // resize() alone would copy what is overwritten anyway
+  const auto make_room = [](size_t size, auto* numbers) {
+    if (numbers->size() < size) numbers->clear();
+    numbers->resize(size);
+  };
+  const auto copy = [crew](const auto& from, auto* to, auto* cleared) {
+    const auto part = [&](int first, int count) {
+      std::copy_n(from.begin() + first, count, to->begin() + first);
+      std::fill_n(cleared->begin() + first, count,
+                  typename std::decay_t<decltype(from)>::value_type{});
+    };
+    InParts(static_cast<int>(from.size()), kLinesOfPart, crew, part, {SpanKind::kSweep, 0, -1});
+  };
+  make_room(now.x.size(), &last_.x);
+  make_room(now.x.size(), &direction_.x);
+  make_room(now.bodies.size(), &last_.bodies);
+  make_room(now.bodies.size(), &direction_.bodies);
+  copy(now.x, &last_.x, &direction_.x);
+  copy(now.bodies, &last_.bodies, &direction_.bodies);
+}
+
 void Nncg::MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame) {
   BlockData& now = frame->blocks();
   if (!known_) {
-    // resize() would copy what is overwritten anyway
-    last_.x.assign(now.x.begin(), now.x.end());
-    last_.bodies.assign(now.bodies.begin(), now.bodies.end());
-    direction_.x.assign(now.x.size(), {});
-    direction_.bodies.assign(now.bodies.size(), {});
+    Remember(now, crew);
     known_ = true;
     return;
   }

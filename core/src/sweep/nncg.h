@@ -39,6 +39,8 @@ class Nncg {
  private:
   class Pass;
   void ReadPlan(const Plan& plan);
+  /// The state to go on from: it has no direction yet.
+  void Remember(const BlockData& now, Crew* crew);
   void FindEnds(const Plan& plan);
   simd::Way& WayOf(int island) { return ways_[static_cast<size_t>(island) + 1]; }
   /// One number for each part of the state.

@@ -87,6 +87,42 @@ class DeadlinesTest(unittest.TestCase):
             self.assertNotEqual(result.stderr, "", words)
 
 
+class ThreadsTest(unittest.TestCase):
+    def rows(self, *arguments):
+        result = frames(*arguments)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        self.assertEqual(result.stderr, "")
+        lines = [[cell.strip() for cell in line.strip("|").split("|")]
+                 for line in result.stdout.splitlines() if line.startswith("|")]
+        return [dict(zip(lines[0], line)) for line in lines[2:]]
+
+    def test_times_the_parts_of_a_substep_for_each_number_of_threads(self):
+        rows = self.rows("threads", "--scene", "pyramid3d:8", "--frame", "4", "--frames", "3", "--threads", "1,2,1024")
+        self.assertEqual([row["threads"] for row in rows], ["1", "1", "2", "1024"])
+        for row in rows:
+            self.assertEqual(row["rows"], rows[0]["rows"])
+            for part in ("build", "solve", "write", "solver", "step"):
+                self.assertGreater(float(row[part]), 0, part)
+            self.assertGreater(float(row["step"]), float(row["solve"]))
+
+    def test_predicts_less_time_for_more_threads(self):
+        rows = self.rows("scaling", "--scene", "pyramid3d:14", "--frame", "4", "--frames", "3", "--threads", "1,2,16")
+        self.assertEqual([row["threads"] for row in rows], ["1", "2", "16"])
+        shared = [float(row["shared"]) for row in rows]
+        # what all share, less what waits, divides by their number
+        self.assertLess(shared[1], 0.8 * shared[0])
+        self.assertLess(shared[2], 0.3 * shared[0])
+        self.assertEqual(rows[0]["imbalance"], "0.000")
+        self.assertEqual(rows[0]["barriers"], "0.000")
+
+    def test_a_number_of_threads_that_cannot_be_is_refused(self):
+        for words in (["--threads", "0"], ["--threads", "1,1025"], ["--threads", "many"]):
+            for command in ("threads", "scaling", "mt"):
+                result = frames(command, *words)
+                self.assertNotEqual(result.returncode, 0, words)
+                self.assertNotEqual(result.stderr, "", words)
+
+
 if __name__ == "__main__":
     TOOL = os.path.abspath(sys.argv.pop(1))
     unittest.main()

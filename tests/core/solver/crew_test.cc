@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/detail/threads.h"
+
 namespace cairn {
 namespace {
 
@@ -73,6 +75,75 @@ TEST(Crew, DoesManyWorksOfOneShift) {
   }
 }
 
+/// A job system that never has time, and one that starts a thread for each task.
+class NoThreads final : public Executor {
+ public:
+  void Submit(void (*work)(void*), void* what) override { tasks.emplace_back(work, what); }
+  std::vector<std::pair<void (*)(void*), void*>> tasks;
+};
+class OwnThreads final : public Executor {
+ public:
+  ~OwnThreads() override {
+    for (std::thread& thread : threads) thread.join();
+  }
+  void Submit(void (*work)(void*), void* what) override { threads.emplace_back(work, what); }
+  std::vector<std::thread> threads;
+};
+
+TEST(Crew, AsksForAsManyAsTheWorkIsWorth) {
+  NoThreads executor;
+  {
+    Crew crew(8, &executor);
+    EXPECT_EQ(crew.threads(), 1);
+    crew.Call(3);
+    EXPECT_EQ(crew.threads(), 3);
+    crew.Dismiss();
+    EXPECT_EQ(crew.threads(), 1);
+    crew.Call(1);
+    EXPECT_FALSE(crew.called());
+  }
+  EXPECT_EQ(executor.tasks.size(), 2u);
+  for (const auto& [work, what] : executor.tasks) work(what);
+}
+
+TEST(Crew, HasNoMoreThreadsOfOneTbbThanThereAreCores) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  testing::internal::CaptureStderr();
+  {
+    Crew crew(1024);
+    crew.Call();
+    EXPECT_LE(crew.threads(), cores);
+    Counted work(kStages);
+    crew.Run(&work);
+    work.ExpectDoneOnce(6);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Threads, DoEachPartOnceAndStayForTheSolver) {
+  OwnThreads executor;
+  detail::Threads threads;
+  threads.Follow(3, &executor);
+  for (const int most : {1, 2, 3}) {
+    const detail::Shift shift(&threads, most);
+    EXPECT_EQ(threads.several(), most > 1);
+    std::vector<std::atomic<int>> done(1000);
+    threads.For(1000, 7, [&](int first, int count) {
+      for (int i = first; i < first + count; ++i) done[i].fetch_add(1);
+    });
+    for (const std::atomic<int>& times : done) ASSERT_EQ(times, 1);
+  }
+  EXPECT_FALSE(threads.several());
+}
+
+TEST(Threads, AreAsManyAsTheRowsAreWorth) {
+  EXPECT_EQ(detail::ThreadsFor(0, 8), 1);
+  EXPECT_EQ(detail::ThreadsFor(4095, 8), 1);
+  EXPECT_EQ(detail::ThreadsFor(4096, 8), 2);
+  EXPECT_EQ(detail::ThreadsFor(4096, 1), 1);
+  EXPECT_EQ(detail::ThreadsFor(1 << 20, 8), 8);
+}
+
 TEST(Crew, EndsBetweenStagesWhereItIsToldTo) {
   for (const int threads : {1, 4}) {
     Crew crew(threads);
@@ -89,21 +160,6 @@ TEST(Crew, DoesNothingWhereThereIsNothing) {
   crew.Run(&work);
   work.ExpectDoneOnce(0);
 }
-
-/// A job system that never has time, and one that starts a thread for each task.
-class NoThreads final : public Executor {
- public:
-  void Submit(void (*work)(void*), void* what) override { tasks.emplace_back(work, what); }
-  std::vector<std::pair<void (*)(void*), void*>> tasks;
-};
-class OwnThreads final : public Executor {
- public:
-  ~OwnThreads() override {
-    for (std::thread& thread : threads) thread.join();
-  }
-  void Submit(void (*work)(void*), void* what) override { threads.emplace_back(work, what); }
-  std::vector<std::thread> threads;
-};
 
 TEST(Crew, FinishesAloneWhereNobodyComes) {
   NoThreads executor;

@@ -161,7 +161,7 @@ TEST(NoMemory, LeavesASolverOfMatricesAsNew) {
 }
 
 /// Enough rows to be worth threads.
-ManifoldScene LargeScene() { return test::ManifoldTower(400); }
+ManifoldScene LargeScene() { return test::ManifoldTower(600); }
 
 Settings OnThreads(Executor* executor) {
   return {.max_sweeps = 4, .tolerance = 0, .threads = 3, .executor = executor};

@@ -164,7 +164,8 @@ std::vector<RowLaw> LawsOf(const Scene& scene, double omega) {
 }
 
 void MakePlan(const Scene& scene, double omega, Plan* plan) {
-  EXPECT_TRUE(plan->Make(scene.problem(), LawsOf(scene, omega), MovableOf(scene)));
+  Crew alone(1);
+  EXPECT_TRUE(plan->Make(scene.problem(), LawsOf(scene, omega), MovableOf(scene), &alone));
 }
 
 Settings Coloured(int sweeps) {

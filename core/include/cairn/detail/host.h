@@ -7,6 +7,8 @@
 
 namespace cairn::detail {
 
+class Threads;  // cairn/detail/threads.h
+
 /// What a friction row does while its parent row pushes with nothing.
 enum class LiftedFriction {
   kRelease,  ///< Its impulse is zero, as Coulomb says.

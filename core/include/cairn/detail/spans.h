@@ -40,6 +40,8 @@ struct Span {
 
   SpanLabel label;
   Clock::time_point begin, end;
+  /// Of a stage that threads share: so many of its units were done. 0: of no such stage.
+  int units = 0;
 };
 
 /// Takes down what the threads of a Solve() did when (Settings::spans): for timelines. The results
@@ -78,9 +80,9 @@ class SpanRecorder {
 /// Records a span from its construction to its destruction. Without a recorder it does nothing.
 class SpanClock {
  public:
-  SpanClock(SpanRecorder* recorder, int worker, SpanLabel label)
+  SpanClock(SpanRecorder* recorder, int worker, SpanLabel label, int units = 0)
       : recorder_(recorder), worker_(worker) {
-    if (recorder_ != nullptr) span_ = {label, Span::Clock::now(), {}};
+    if (recorder_ != nullptr) span_ = {label, Span::Clock::now(), {}, units};
   }
   ~SpanClock() {
     if (recorder_ == nullptr) return;

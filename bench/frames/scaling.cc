@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include <cairn/bullet/constraint_solver.h>
+#include <cairn/detail/spans.h>
+#include <cairn/detail/threads.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "frames/experiments.h"
+#include "run/scene_run.h"
+#include "support/duration.h"
+#include "support/machine/run_context.h"
+#include "support/statistics.h"
+#include "support/text_table.h"
+
+namespace cairn::frames {
+namespace {
+
+constexpr int kSweeps = 10, kMostSpans = 65536;
+
+/// Nobody ever comes: the caller does all, cut as for the threads that were asked for.
+class Nobody final : public Executor {
+ public:
+  ~Nobody() override {
+    for (const auto& [work, what] : tasks_) work(what);
+  }
+  void Submit(void (*work)(void*), void* what) override { tasks_.emplace_back(work, what); }
+
+ private:
+  std::vector<std::pair<void (*)(void*), void*>> tasks_;
+};
+
+double Microseconds(Span::Clock::duration time) {
+  return std::chrono::duration<double, std::micro>(time).count();
+}
+
+/// A substep of one thread that is to be shared by several [us].
+struct Forecast {
+  double serial = 0;     ///< nobody can help with
+  double shared = 0;     ///< the rest, on all threads evenly
+  double imbalance = 0;  ///< until the last of them is done
+  double barriers = 0;
+  std::array<double, kSpanKinds> serial_of{};  ///< of serial
+
+  double all() const { return serial + shared + imbalance + barriers; }
+};
+
+/// What @p threads threads would take for what one did.
+/// @param whole    the substep [us]
+/// @param barrier  the end of a stage [us]
+Forecast Predict(std::span<const Span> spans, double whole, int threads, double barrier) {
+  Forecast forecast;
+  double staged = 0;
+  std::array<double, kSpanKinds> outer_of{}, staged_of{};
+  Span::Clock::time_point outer = Span::Clock::time_point::max();
+  // a span comes after those that it contains
+  for (size_t i = spans.size(); i-- > 0;) {
+    const Span& span = spans[i];
+    const double time = Microseconds(span.end - span.begin);
+    const auto kind = static_cast<size_t>(span.label.kind);
+    if (span.begin < outer) {
+      outer = span.begin;
+      outer_of[kind] += time;
+    }
+    if (span.units == 0) continue;
+    staged += time;
+    staged_of[kind] += time;
+    if (span.units == 1) {
+      forecast.serial += time;
+      forecast.serial_of[kind] += time;
+      continue;
+    }
+    const double rounds = std::ceil(static_cast<double>(span.units) / threads);
+    const double together = time / threads;
+    forecast.shared += together;
+    forecast.imbalance += std::max(0.0, time * rounds / span.units - together);
+    forecast.barriers += threads > 1 ? barrier : 0;
+  }
+  forecast.serial += std::max(0.0, whole - staged);
+  for (size_t k = 0; k < kSpanKinds; ++k) {
+    forecast.serial_of[k] += std::max(0.0, outer_of[k] - staged_of[k]);
+  }
+  return forecast;
+}
+
+/// The end of a stage on two threads [us], where there are two.
+double MeasureBarrier() {
+  constexpr int kStages = 20000, kParts = 8;
+  detail::Threads threads;
+  threads.Follow(2, nullptr);
+  const detail::Shift shift(&threads, 2);
+  const auto nothing = [](int, int) {};
+  threads.For(kParts * 1000, 1, nothing);
+  const auto begin = Span::Clock::now();
+  for (int i = 0; i < kStages; ++i) threads.For(kParts, 1, nothing);
+  return Microseconds(Span::Clock::now() - begin) / kStages;
+}
+
+/// A world that Cairn drives.
+class World {
+ public:
+  World(const SceneChoice& scene, int threads, Executor* executor)
+      : solver_(Sweeps(kSweeps, threads)), run_(scene, &solver_) {
+    solver_.settings().executor = executor;
+    run_.world().solver_info().m_numIterations = kSweeps;
+  }
+  void Record() { solver_.settings().tuning.spans = &spans_; }
+  /// @return what the solver took [us]
+  double Step() {
+    spans_.Clear();
+    run_.Step();
+    const bullet::SubstepTimes times = solver_.times();
+    return Microseconds(times.build + times.solve + times.write);
+  }
+  std::span<const Span> spans() const { return spans_.spans(0); }
+
+ private:
+  SpanRecorder spans_{1, kMostSpans};
+  bullet::ConstraintSolver solver_;
+  cli::SceneRun run_;
+};
+
+double MedianOf(const std::vector<Forecast>& forecasts, double (*value)(const Forecast&)) {
+  std::vector<double> values;
+  for (const Forecast& forecast : forecasts) values.push_back(value(forecast));
+  return cli::Median(values);
+}
+
+std::string Milliseconds(double us) { return fmt::format("{:.3f}", us / 1000); }
+
+/// Medians of a kind that anybody would notice.
+std::string SerialParts(const std::vector<Forecast>& forecasts) {
+  std::string parts;
+  for (size_t k = 0; k < kSpanKinds; ++k) {
+    std::vector<double> values;
+    for (const Forecast& forecast : forecasts) values.push_back(forecast.serial_of[k]);
+    const double us = cli::Median(values);
+    if (us < 20) continue;
+    if (!parts.empty()) parts += ", ";
+    parts += fmt::format("{} {:.2f}", Describe(static_cast<SpanKind>(k)), us / 1000);
+  }
+  return parts.empty() ? "-" : parts;
+}
+
+}  // namespace
+
+void PrintScaling(const ThreadOptions& options, const std::string& command) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  const double barrier = MeasureBarrier();
+  fmt::print("{}", cli::Origin("Scaling: what substeps of ten plain sweeps would take on so many "
+                               "threads",
+                               cli::DescribeContext(command)));
+  fmt::print(
+      "- {} frames, medians, ms. One thread does what is cut for so many, and spans say what "
+      "others could have done:\n"
+      "  serial: nobody could; shared: the rest, evenly; imbalance: what rounds of whole units "
+      "add; barriers: {:.2f} us\n"
+      "  a stage on two threads, measured here, and taken to grow with the logarithm of their "
+      "number\n"
+      "- not in it: caches and memory that cores share, and cores that slow each other down\n"
+      "- measured: as many threads, where there are as many cores ({})\n\n",
+      options.window.frames, barrier, cores);
+  cli::TextTable table =
+      cli::TableOf({"scene", "threads", "serial", "shared", "imbalance", "barriers", "predicted",
+                    "measured", "ratio to one", "serial by part"});
+  for (const SceneChoice& scene : options.window.scenes) {
+    const int first = scene.FirstFrame(options.window.frame);
+    double one = 0;
+    for (const int threads : options.threads) {
+      Nobody nobody;
+      const bool can = threads <= cores;
+      World cut(scene, threads, &nobody), real(scene, can ? threads : 1, nullptr);
+      const double end_of_stage = barrier * std::log2(std::max(2, threads));
+      std::vector<Forecast> forecasts;
+      std::vector<double> measured;
+      for (int frame = 0; frame < first + options.window.frames; ++frame) {
+        if (frame == first) cut.Record();
+        const double whole = cut.Step(), took = can ? real.Step() : 0;
+        if (frame < first) continue;
+        forecasts.push_back(Predict(cut.spans(), whole, threads, end_of_stage));
+        measured.push_back(took);
+      }
+      const double predicted =
+          MedianOf(forecasts, [](const Forecast& forecast) { return forecast.all(); });
+      if (one == 0) one = predicted * (threads == 1 ? 1 : std::numeric_limits<double>::quiet_NaN());
+      const auto median = [&](double (*value)(const Forecast&)) {
+        return Milliseconds(MedianOf(forecasts, value));
+      };
+      table.rows.push_back(
+          {NameOf(scene), fmt::format("{}", threads),
+           median([](const Forecast& forecast) { return forecast.serial; }),
+           median([](const Forecast& forecast) { return forecast.shared; }),
+           median([](const Forecast& forecast) { return forecast.imbalance; }),
+           median([](const Forecast& forecast) { return forecast.barriers; }),
+           Milliseconds(predicted), can ? Milliseconds(cli::Median(measured)) : "-",
+           std::isnan(one) ? "-" : fmt::format("{:.2f}", one / predicted), SerialParts(forecasts)});
+    }
+  }
+  fmt::print("{}\n", table.ToMarkdown());
+}
+
+}  // namespace cairn::frames
