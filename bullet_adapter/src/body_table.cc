@@ -96,8 +96,8 @@ Body ToBody(const btRigidBody& rigid) {
   return body;
 }
 
-void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
-                      GeometricStiffness* stiffness) {
+void BodyTable::Begin(std::span<btCollisionObject* const> objects,
+                      const btContactSolverInfo& info) {
   ++substep_;
   time_step_ = info.m_timeStep;
   strangers_.clear();
@@ -114,11 +114,10 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btConta
     terms.Add(*rigids_[party.number], party.number);
   }
   terms.End();
-  if (stiffness != nullptr) Stiffen(stiffness);
 }
 
-void BodyTable::Stiffen(GeometricStiffness* stiffness) {
-  for (const GeometricStiffness::Raised& raised : stiffness->RaiseInertia(time_step_, bodies_)) {
+void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
+  for (const GeometricStiffness::Raised& raised : stiffness->RaiseInertia(part, bodies_)) {
     Motion& motion = motions_[raised.body];
     const Eigen::Vector3d torque_spin =
         ToEigen(rigids_[raised.body]->getTotalTorque() *

@@ -48,9 +48,9 @@ class BodyTable {
  public:
   /// Begins a substep with the bodies that Bullet lists; entries that are no rigid bodies are
   /// passed over.
-  /// @param stiffness  what tension asks for is done to them; nullptr: nothing
-  void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
-             GeometricStiffness* stiffness);
+  void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
+  /// Does to the bodies that are there what tension asks for where steps are that long [s].
+  void Stiffen(GeometricStiffness* stiffness, btScalar part);
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
   /// first asked for. The reference is good until another object is asked for.
@@ -82,7 +82,6 @@ class BodyTable {
     Party party;
   };
 
-  void Stiffen(GeometricStiffness* stiffness);
   /// One that has no slot yet, or none of its own.
   const Party& Enter(const btCollisionObject& object);
   /// Fills it where it stays: a copy would wait for what was just written.

@@ -20,9 +20,10 @@ using cli::kNotMeasured;
 double CpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 TensionSolver Cairn(std::string name, std::string description, const Settings& settings,
-                    const bullet::Options& options = {}) {
+                    const bullet::Options& options = {}, int iterations = 10) {
   return {std::move(name), std::move(description),
-          [=] { return std::make_unique<bullet::ConstraintSolver>(settings, options); }};
+          [=] { return std::make_unique<bullet::ConstraintSolver>(settings, options); },
+          iterations};
 }
 
 TensionSolver Bullet(std::string name, int iterations) {
@@ -83,6 +84,12 @@ std::span<const TensionSolver> TensionSolvers() {
     settings.k_sm = 0;
     return settings;
   };
+  const auto parts = [](int substeps, int k_sm = 2) {
+    Settings settings;
+    settings.substeps = substeps;
+    settings.k_sm = k_sm;
+    return settings;
+  };
   const auto always = [] {
     Settings settings;
     settings.step_policy = StepPolicy::kAlways;
@@ -92,6 +99,12 @@ std::span<const TensionSolver> TensionSolvers() {
       Cairn("cairn", "Cairn as it comes", {}),
       Cairn("cairn-plain", "without geometric stiffness", {}, {.geometric_stiffness = false}),
       Cairn("cairn-always", "a subspace step in every frame", always()),
+      Cairn("cairn-2", "two substeps", parts(2)),
+      Cairn("cairn-4", "four substeps", parts(4)),
+      Cairn("cairn-4-plain", "the same without stiffness", parts(4),
+            {.geometric_stiffness = false}),
+      Cairn("cairn-40", "one step, as many iterations as four of 10", {}, {}, 40),
+      Cairn("cairn-4-sweeps", "four substeps of sweeps only", parts(4, 0)),
       Cairn("cairn-sweeps", "k_sm = 0: sweeps only", sweeps()),
       Bullet("bullet-10", 10),
       Bullet("bullet-200", 200)};

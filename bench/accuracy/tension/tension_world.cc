@@ -133,7 +133,9 @@ void TensionWorld::Join(btRigidBody* a, btRigidBody* b, int place) {
   // hinges of a chain in space turn about level and upright axes in turn
   const bool upright = cell_.stage != Stage::kPlane && place % 2 == 1;
   std::unique_ptr<btTypedConstraint> joint;
-  switch (cell_.link) {
+  // the pin takes no angular momentum about the vertical
+  const bool pin = cell_.stage == Stage::kSpace && place == 0;
+  switch (pin ? Link::kPin : cell_.link) {
     case Link::kPin:
       joint = std::make_unique<btPoint2PointConstraint>(
           *a, *b, bench::Local(*a, bench::At(at.x(), 0, 0)).getOrigin(),
