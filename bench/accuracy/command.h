@@ -34,6 +34,7 @@ void AddCount(CLI::App* app, const char* name, int* count, int least, const char
 cli::Command AddStatesCommand(CLI::App* app);
 cli::Command AddLoopCommand(CLI::App* app);
 cli::Command AddGridCommand(CLI::App* app);
+cli::Command AddTensionCommand(CLI::App* app);
 
 /// Of a file: who wrote it, in which form, and under which circumstances.
 nlohmann::ordered_json JsonHead(const std::string& subcommand, const cli::RunContext& context);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How accurate Cairn is at game speed: on given states, in closed loop, and on a grid of extremes.
+// How accurate Cairn is at game speed: on given states, in closed loop, on a grid of extremes, and
+// under tension.
 #include <fmt/format.h>
 
 #include <exception>
@@ -19,7 +20,7 @@ int Main(int count, char** arguments) {
                "cairn_accuracy");
   app.require_subcommand(1);
   const cli::Command commands[] = {AddStatesCommand(&app), AddLoopCommand(&app),
-                                   AddGridCommand(&app)};
+                                   AddGridCommand(&app), AddTensionCommand(&app)};
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

@@ -167,7 +167,8 @@ Command AddWorldsCommand(CLI::App* app) {
   add("--seeds", &words->seeds, "Worlds FROM to TO - 1", "FROM:TO");
   add("--seed", &words->seed, "One world", "N");
   add("--solver", &words->solvers,
-      "Of cairn, cairn-sweeps, cairn-work, cairn-always; default: all of them", "A,B,...");
+      "Of cairn, cairn-sweeps, cairn-work, cairn-always, cairn-parts; default: all but the last",
+      "A,B,...");
   add("--kind", &words->kinds, "Only worlds of these kinds; see --list", "K,...");
   add("--seconds", &words->seconds, "Simulated time of each world; default 5", "S");
   add("--scale", &words->scale, "Smaller worlds: share of their size, at most 1; default 1", "X");

@@ -33,7 +33,8 @@ std::span<const Variant> CairnVariants() {
       Cairn("cairn-work", "Budget::Work(40000)",
             [](Settings* s) { s->budget = Budget::Work(kWork); }),
       Cairn("cairn-always", "StepPolicy::kAlways",
-            [](Settings* s) { s->step_policy = StepPolicy::kAlways; })};
+            [](Settings* s) { s->step_policy = StepPolicy::kAlways; }),
+      Cairn("cairn-parts", "four substeps", [](Settings* s) { s->substeps = 4; })};
   return variants;
 }
 

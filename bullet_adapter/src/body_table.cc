@@ -188,8 +188,8 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
   terms.End();
 }
 
-void BodyTable::Stiffen(GeometricStiffness* stiffness) {
-  for (const GeometricStiffness::Raised& raised : stiffness->RaiseInertia(time_step_, bodies_)) {
+void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
+  for (const GeometricStiffness::Raised& raised : stiffness->RaiseInertia(part, bodies_)) {
     Motion& motion = motions_[raised.body];
     const Eigen::Vector3d torque_spin =
         ToEigen(rigids_[raised.body]->getTotalTorque() *

@@ -53,8 +53,8 @@ class BodyTable {
   /// passed over.
   void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
              detail::Threads* threads);
-  /// Does to them what tension asks for.
-  void Stiffen(GeometricStiffness* stiffness);
+  /// Does to the bodies that are there what tension asks for where steps are that long [s].
+  void Stiffen(GeometricStiffness* stiffness, btScalar part);
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
   /// first asked for. The reference is good until another object is asked for.

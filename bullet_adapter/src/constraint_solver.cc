@@ -276,7 +276,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0)) == Path::kReference)
       options.contacts = ContactForm::kRows;
     fast.Read(group, info, LimitsOf(ByIterations(impl_->settings, impl_->options), group.joints),
-              options, &threads);
+              options, impl_->settings.substeps, &threads);
   }
   if (fast.problem().bodies.empty()) {
     fast.Forget();
@@ -299,7 +299,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   if (impl_->solved_fast) {
     const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kWrite});
     if (impl_->options.geometric_stiffness) fast.Learn(info, impl_->report);
-    fast.Write(info);
+    fast.Write(info, impl_->solver.mean_velocities());
     const nanoseconds write = Passed(solved, impl_->Now());
     SetAside(write, &impl_->write_time);
     impl_->finish_time = {};
@@ -347,6 +347,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   }
   Settings settings =
       ForGroup(impl_->settings, impl_->options, info, m_maxOverrideNumSolverIterations);
+  settings.substeps = 1;  // Bullet moves the bodies
   if (SweepsAsBullet(settings)) settings.tuning.lifted_friction = detail::LiftedFriction::kHold;
   const bool recording =
       impl_->BeginRecording(impl_->rows.problem(), {.rows = impl_->rows.impulses()});

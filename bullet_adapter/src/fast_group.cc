@@ -9,13 +9,16 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
-                     const Options& options, detail::Threads* threads) {
+                     const Options& options, int substeps, detail::Threads* threads) {
   threads_ = threads;
   pushes_.Clear();
+  time_step_ = info.m_timeStep;
+  substeps_ = substeps;
   // the tension of a world says nothing of another one; its info is its own
   if (std::exchange(world_, &info) != &info || !options.geometric_stiffness) stiffness_.Reset();
   bodies_.Begin(group.bodies, info, threads_);
-  if (options.geometric_stiffness) bodies_.Stiffen(&stiffness_);
+  if (options.geometric_stiffness)
+    bodies_.Stiffen(&stiffness_, info.m_timeStep / btScalar(substeps));
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
@@ -52,7 +55,8 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
 
 void FastGroup::FindMotions() {
   constexpr int kBodiesOfPart = 512;
-  const bool wanted = !contacts_.manifolds().empty() || !group_.compact_joints.empty();
+  const bool wanted =
+      substeps_ > 1 || !contacts_.manifolds().empty() || !group_.compact_joints.empty();
   velocities_.resize(bodies_.size());
   motions_.resize(wanted ? bodies_.size() : 0);
   const auto put = [](const btVector3& from, float* to) {
@@ -87,7 +91,8 @@ ContactProblem FastGroup::problem() const {
           .motions = motions_,
           .twists = contacts_.twists(),
           .joints = group_.compact_joints,
-          .joint_rows = group_.joint_rows};
+          .joint_rows = group_.joint_rows,
+          .time_step = static_cast<double>(time_step_)};
 }
 
 void FastGroup::Learn(const btContactSolverInfo& info, const Report& report) {
@@ -96,11 +101,12 @@ void FastGroup::Learn(const btContactSolverInfo& info, const Report& report) {
 
 bool FastGroup::FitsBullet() const { return bullet::FitsBullet(group_, bodies_, velocities_); }
 
-void FastGroup::Write(const btContactSolverInfo& info) {
+void FastGroup::Write(const btContactSolverInfo& info, std::span<const Velocity> means) {
   pushes_.Solve(info, bodies_.size());
   WriteContacts(group_, info);
   contacts_.Write(threads_);
   WriteJoints(group_, info);
+  if (!means.empty()) MoveBodies(bodies_, {velocities_, means, substeps_}, info);
   WriteBodies(bodies_, velocities_, pushes_, info, threads_);
   joint_memory_.Keep(group_);
   twist_memory_.Keep(group_);

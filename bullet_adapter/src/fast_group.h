@@ -35,11 +35,11 @@ class FastGroup {
   FastGroup(const FastGroup&) = delete;  // its parts point at each other
   FastGroup& operator=(const FastGroup&) = delete;
 
-  /// Builds the rows and their start. Of Bullet's objects it changes what can be done again: the
-  /// directions of friction of the points, and what joints prepare.
+  /// Builds the rows and their start, for so many parts of the step. Of Bullet's objects it changes
+  /// what can be done again: the directions of friction of the points, and what joints prepare.
   /// @param threads  that do it, and write back; must outlive the group
   void Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
-            const Options& options, detail::Threads* threads);
+            const Options& options, int substeps, detail::Threads* threads);
   /// Remembers what joints pull with, as solved. @pre Read()
   void Learn(const btContactSolverInfo& info, const Report& report);
 
@@ -64,7 +64,8 @@ class FastGroup {
   /// Whether the result is finite in Bullet's numbers.
   bool FitsBullet() const;
   /// Pushes bodies out of deep penetration, and writes everything to Bullet's objects.
-  void Write(const btContactSolverInfo& info);
+  /// @param means  Solver::mean_velocities()
+  void Write(const btContactSolverInfo& info, std::span<const Velocity> means);
 
   /// Starts the next group cold where only this knows what it could start from.
   void Forget();
@@ -78,6 +79,8 @@ class FastGroup {
   detail::Threads* threads_ = nullptr;
   BodyTable bodies_;
   GeometricStiffness stiffness_;
+  btScalar time_step_ = 0;
+  int substeps_ = 1;
   const btContactSolverInfo* world_ = nullptr;  ///< whose tension stiffness_ knows
   GroupProblem group_;
   ContactPoints contacts_;

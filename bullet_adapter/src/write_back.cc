@@ -110,6 +110,35 @@ void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info) {
   }
 }
 
+void MoveBodies(const BodyTable& bodies, const PartedMotion& parted,
+                const btContactSolverInfo& info) {
+  // external impulses act in equal parts
+  const btScalar pushed = btScalar(parted.parts + 1) / btScalar(2 * parted.parts);
+  for (int i = 0; i < bodies.size(); ++i) {
+    if (!bodies.reacts(i)) continue;
+    const Motion& motion = bodies.motion(i);
+    const Velocity& mean = parted.means[i];
+    const btVector3 velocity = VelocityAfter(motion, parted.changes[i]);
+    const btVector3 spin = SpinAfter(motion, parted.changes[i]);
+    const btVector3 way =
+        motion.velocity + ToBullet(mean.linear) + motion.external_velocity * pushed;
+    const btVector3 turn = motion.spin + ToBullet(mean.angular) + motion.external_spin * pushed;
+    // Bullet turns it by the spin, after that
+    btTransform by_bullet;
+    btTransformUtil::integrateTransform(btTransform::getIdentity(), btVector3(0, 0, 0), spin,
+                                        info.m_timeStep, by_bullet);
+    const btScalar angle = turn.length() * info.m_timeStep;
+    const btQuaternion whole =
+        angle > 0 ? btQuaternion(turn.normalized(), angle) : btQuaternion::getIdentity();
+    btRigidBody& rigid = bodies.rigid(i);
+    const btTransform& pose = rigid.getWorldTransform();
+    const btQuaternion turned = by_bullet.getRotation().inverse() * whole * pose.getRotation();
+    const btTransform moved(turned.normalized(),
+                            pose.getOrigin() + (way - velocity) * info.m_timeStep);
+    if (IsFinite(moved)) rigid.setWorldTransform(moved);
+  }
+}
+
 namespace {
 
 /// Of bodies from one number on, up to another one.

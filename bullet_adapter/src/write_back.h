@@ -25,6 +25,18 @@ void WriteContacts(const GroupProblem& group, const btContactSolverInfo& info);
 /// Writes applied impulses and feedback to the joints, and disables those that break.
 void WriteJoints(const GroupProblem& group, const btContactSolverInfo& info);
 
+/// How bodies moved in the parts of a step.
+struct PartedMotion {
+  std::span<const Velocity> changes;  ///< of the velocities, one per body of the table
+  std::span<const Velocity> means;    ///< the same on average over the parts
+  int parts;
+};
+
+/// Moves the bodies that react by what they moved in the parts of a step, less what Bullet moves
+/// them by with their velocity in the end.
+void MoveBodies(const BodyTable& bodies, const PartedMotion& motion,
+                const btContactSolverInfo& info);
+
 /// Writes velocities to the bodies that react, and moves those that are pushed out of penetration.
 /// @param changes  of the velocities, one per body of the table
 void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,

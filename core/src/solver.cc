@@ -11,6 +11,7 @@
 
 #include "cairn/detail/threads.h"
 #include "cycle/block_solver.h"
+#include "cycle/substeps.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
 #include "problem/relaxation.h"
@@ -30,6 +31,49 @@ bool InBlocks(const ContactProblem& problem, const Settings& settings) {
   // joints and manifolds become blocks with the step length of Gauss-Seidel only
   const bool rows_only = problem.joints.empty() && problem.manifolds.empty();
   return (rows_only || OmegaOf(settings) == 1) && PathOf(settings) == Path::kFast;
+}
+
+/// What the first of so many equal parts gets of the rest of a budget.
+Budget ShareOf(const Budget& budget, const Report& spent, std::chrono::nanoseconds elapsed,
+               int parts) {
+  switch (budget.kind()) {
+    case Budget::Kind::kTime:
+      return Budget::Time(std::max(std::chrono::nanoseconds(0), budget.time() - elapsed) / parts);
+    case Budget::Kind::kWork:
+      return Budget::Work(std::max<std::int64_t>(0, budget.work() - spent.work) / parts);
+    case Budget::Kind::kUnlimited:
+      break;
+  }
+  return budget;
+}
+
+/// Adds what was done in a part of a step on an island. What is said of its state is of the last.
+void Add(const IslandReport& part, IslandReport* sum) {
+  const IslandReport before = *sum;
+  *sum = part;
+  sum->residual_before = before.residual_before;
+  sum->merit += before.merit;
+  sum->guards.start |= before.guards.start;
+  sum->guards.step |= before.guards.step;
+  sum->guards.result |= before.guards.result;
+  sum->sweeps += before.sweeps;
+  sum->factorisations += before.factorisations;
+  sum->steps_accepted += before.steps_accepted;
+  sum->steps_restored += before.steps_restored;
+  sum->step_work += before.step_work;
+  sum->stop = WorseOf(before.stop, part.stop);
+}
+
+/// The same of all of them, which are those of the part before.
+void Add(const Report& part, Report* sum) {
+  sum->path = std::max(sum->path, part.path);
+  sum->work += part.work;
+  sum->step_predicted += part.step_predicted;
+  sum->step_time += part.step_time;
+  sum->island_of = part.island_of;
+  const bool alike = sum->islands.size() == part.islands.size();
+  if (!alike) sum->islands = part.islands;
+  for (size_t i = 0; i < part.islands.size() && alike; ++i) Add(part.islands[i], &sum->islands[i]);
 }
 
 BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
@@ -59,11 +103,39 @@ class StopWatch {
   Clock::time_point begin_ = Clock::now();
 };
 
+/// All but its memory.
+void ForgetReport(Report* report) {
+  std::vector<IslandReport> islands = std::move(report->islands);
+  std::vector<int> island_of = std::move(report->island_of);
+  Replay replay = std::move(report->replay);
+  islands.clear();
+  island_of.clear();
+  *report = Report{};
+  report->islands = std::move(islands);
+  report->island_of = std::move(island_of);
+  report->replay = std::move(replay);
+}
+
 /// False, and the report says why, if a setting is out of its range.
 bool Accept(const Settings& settings, Report* report) {
   report->bad_setting = FindBadSetting(settings);
   if (report->bad_setting.name != nullptr) report->status = Status::kBadSettings;
   return report->ok();
+}
+
+/// Says which bodies are strained most, and what would help. @p substeps: those of the bodies
+void TellStrains(std::span<const Body> bodies, int substeps, Report* report) {
+  constexpr double kCalm = 2;  // below, stiffness leaves bodies alone
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const int at = report->island_of[i];
+    if (at < 0 || !(bodies[i].strain > report->islands[at].strain)) continue;
+    IslandReport& island = report->islands[at];
+    island.strain = bodies[i].strain;
+    island.strained_body = static_cast<int>(i);
+    // strain falls with the square of the number of parts
+    const double enough = std::ceil(substeps * std::sqrt(island.strain / kCalm));
+    island.enough_substeps = static_cast<int>(std::clamp(enough, 1.0, 1e6));
+  }
 }
 
 /// Adds up what was done on the islands.
@@ -143,6 +215,11 @@ struct Solver::Impl {
   /// See Solver::Solve().
   void Solve(const ContactProblem& problem, const Impulses& impulses,
              std::span<Velocity> velocities, Report* report);
+  /// In one part, or the parts that settings ask for. Both: @pre sizes fit
+  void SolveAtOnce(const ContactProblem& problem, const Impulses& impulses,
+                   std::span<Velocity> velocities, Report* report);
+  void SolveInParts(const ContactProblem& problem, const Impulses& impulses,
+                    std::span<Velocity> velocities, Report* report);
   /// False, and nothing is written, if the result is not finite.
   bool SolveInDouble(const ContactProblem& problem, BudgetMeter* meter, const Impulses& impulses,
                      std::span<Velocity> velocities, Report* report);
@@ -164,6 +241,9 @@ struct Solver::Impl {
 
   WorkPrices block_prices = kBlockPrices, row_prices = kRowPrices;
   detail::Threads threads;
+  Substeps substeps;
+  Report part_report;
+  bool in_parts = false;  ///< the last Solve() was, and succeeded
   std::unique_ptr<BlockSolver> blocks;
 };
 bool Solver::Impl::SolveInDouble(const ContactProblem& problem, BudgetMeter* meter,
@@ -254,17 +334,8 @@ void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
 
 void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses,
                          std::span<Velocity> velocities, Report* report) {
-  // all but the memory of an earlier report
-  std::vector<IslandReport> islands = std::move(report->islands);
-  std::vector<int> island_of = std::move(report->island_of);
-  Replay replay = std::move(report->replay);
-  islands.clear();
-  island_of.clear();
-  *report = Report{};
-  report->islands = std::move(islands);
-  report->island_of = std::move(island_of);
-  report->replay = std::move(replay);
-
+  ForgetReport(report);
+  in_parts = false;
   if (!Accept(user_settings, report)) return;
   settings = user_settings;
   if (!settings.steps) settings.k_sm = 0;
@@ -277,7 +348,53 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   }
   if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
   if (!report->ok()) return;
+  if (settings.substeps == 1) {
+    SolveAtOnce(problem, impulses, velocities, report);
+  } else {
+    SolveInParts(problem, impulses, velocities, report);
+  }
+}
 
+void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& impulses,
+                                std::span<Velocity> velocities, Report* report) {
+  const Clock* const clock = settings.tuning.clock;
+  const auto begin = ReadClock(clock);
+  CopyJudgement(Validate(problem, impulses), report);
+  if (report->ok() && !(problem.time_step >= 0 && problem.time_step < kInfinity)) {
+    report->status = Status::kNotFinite;
+    report->bad_setting = {"problem.time_step", problem.time_step, "at least 0, and finite"};
+  }
+  if (!report->ok()) return;
+  const Budget whole = settings.budget;
+  report->replay.fits.clear();
+  report->replay.work = Replay{}.work;
+  for (substeps.Begin(problem, impulses, settings.substeps); !substeps.done(); substeps.Advance()) {
+    const auto elapsed = whole.kind() == Budget::Kind::kTime ? ReadClock(clock) - begin
+                                                             : std::chrono::nanoseconds(0);
+    settings.budget = ShareOf(whole, *report, elapsed, substeps.left());
+    ForgetReport(&part_report);
+    SolveAtOnce(substeps.problem(), substeps.impulses(), substeps.velocities(), &part_report);
+    if (!part_report.ok()) {
+      // what is wrong came of numbers that were sound: they did not fit
+      report->islands.clear();
+      report->status = Status::kOverflow;
+      report->stop = StopReason::kBrokeDown;
+      return;
+    }
+    Add(part_report, report);
+  }
+  substeps.Write(impulses, velocities);
+  in_parts = true;
+  SumUp(report);
+}
+
+std::span<const Velocity> Solver::mean_velocities() const {
+  if (!impl_->in_parts) return {};
+  return impl_->substeps.means();
+}
+
+void Solver::Impl::SolveAtOnce(const ContactProblem& problem, const Impulses& impulses,
+                               std::span<Velocity> velocities, Report* report) {
   const Attempt attempt(this);
   bool in_blocks = InBlocks(problem, settings);
   WorkPrices* const prices = in_blocks ? &block_prices : &row_prices;
@@ -301,6 +418,7 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   }
   report->path = in_blocks ? Path::kFast : Path::kReference;
   SumUp(report);
+  if (!in_blocks || blocks->strained()) TellStrains(problem.bodies, settings.substeps, report);
   report->work = meter.work();
   report->step_predicted = meter.steps_predicted();
   report->step_time = meter.steps_time();

@@ -49,11 +49,12 @@ c_double, c_bool = ctypes.c_double, ctypes.c_bool
 Problem = struct("Problem", *[(name, pointer) for name in
                               "bodies manifolds points twists joints jointRows".split()],
                  *counts("bodyCount manifoldCount pointCount twistCount jointCount jointRowCount"),
-                 ("bounceSpeed", ctypes.c_float))
+                 ("bounceSpeed", ctypes.c_float), ("timeStep", ctypes.c_float))
 Solution = struct("Solution", *[(name, pointer) for name in
                                 "points twists jointRows velocities".split()])
 Settings = struct("Settings", ("method", c_int), ("path", c_int), ("kGs", c_i32), ("kSm", c_i32),
-                  ("steps", c_bool), ("maxSweeps", c_i32), ("tolerance", c_double),
+                  ("steps", c_bool), ("maxSweeps", c_i32), ("substeps", c_i32),
+                  ("tolerance", c_double),
                   ("budgetKind", c_int), ("budget", c_i64), ("minSweeps", c_i32),
                   ("threads", c_i32), ("submit", pointer), ("context", pointer))
 Report = struct("Report", ("status", c_int), *counts("badBody badManifold badJoint"),

@@ -167,7 +167,7 @@ void ReadOurs(const Substep& substep, const Substep::Group& group, const ChangeS
   substep.Restore();
   change(substep);
   ours->Read({group.bodies, group.manifolds, group.joints}, info, bullet::SweepLimits::kBullet,
-             {.contacts = form});
+             {.contacts = form}, 1);
 }
 
 /// Sums of some ten products of numbers of up to ten, in floats.

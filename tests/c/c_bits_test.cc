@@ -96,6 +96,7 @@ TEST(CInterface, PassesEverySettingOn) {
   ExpectSameBits(test::ManifoldTower(12), settings, c);
   settings.method = Method::kPgsSm;
   settings.path = Path::kAuto;
+  settings.substeps = c.substeps = 2;
   c.method = cairnPgsSm;
   c.path = cairnAuto;
   ExpectSameBits(test::ManifoldTower(12), settings, c);

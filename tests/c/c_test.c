@@ -303,6 +303,35 @@ static void RecordsAndSolvesAgain(const char* folder) {
   cairnDestroySolver(solver);
 }
 
+/* 1 N s in four parts: 1/4, 2/4, 3/4 and 1 m/s, 5/8 m/s on average. */
+static void SaysHowFastBodiesWereOnAverage(void) {
+  CairnSettings settings = cairnDefaultSettings();
+  settings.substeps = 4;
+  CairnBody body = cairnDefaultBody();
+  body.invMass = 1;
+  body.impulse[1] = -1;
+  CairnProblem problem = cairnDefaultProblem();
+  problem.bodies = &body;
+  problem.bodyCount = 1;
+  problem.timeStep = 1.0f / 60;
+  CairnVelocity velocity, mean;
+  CairnSolution solution = {NULL, NULL, NULL, &velocity};
+  CairnSolver* solver = NULL;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+  CHECK(cairnSolve(solver, &problem, &solution, NULL) == cairnOk);
+  CHECK(velocity.linear[1] == -1);
+  CHECK(cairnMeanVelocities(solver, &mean, 2) == cairnWrongSize);
+  CHECK(cairnMeanVelocities(solver, NULL, 1) == cairnNullPointer);
+  CHECK(cairnMeanVelocities(solver, &mean, 1) == cairnOk);
+  CHECK(mean.linear[1] == -0.625f);
+  settings.substeps = 1;
+  CHECK(cairnSetSettings(solver, &settings) == cairnOk);
+  CHECK(cairnSolve(solver, &problem, &solution, NULL) == cairnOk);
+  CHECK(cairnMeanVelocities(solver, &mean, 1) == cairnOk);
+  CHECK(mean.linear[1] == -1);
+  cairnDestroySolver(solver);
+}
+
 static void EveryStatusHasASentence(void) {
   for (int status = cairnOk; status <= cairnFailed; ++status) {
     if (status == cairnOverflow + 1) status = cairnWrongVersion;
@@ -321,6 +350,7 @@ int main(int argc, char** argv) {
   FindsWhatCannotBeMeant();
   TakesThreadsOfItsHost();
   RecordsAndSolvesAgain(argv[1]);
+  SaysHowFastBodiesWereOnAverage();
   EveryStatusHasASentence();
   printf("%d failures\n", failures);
   return failures > 0;

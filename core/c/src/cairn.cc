@@ -131,6 +131,7 @@ CairnSettings cairnDefaultSettings(void) {
           .kSm = from.k_sm,
           .steps = from.steps,
           .maxSweeps = from.max_sweeps,
+          .substeps = from.substeps,
           .tolerance = from.tolerance,
           .budgetKind = cairnUnlimited,
           .budget = 0,
@@ -264,6 +265,18 @@ CairnStatus cairnLoadRecording(const char* path, CairnRecording** recording) {
 }
 
 void cairnFreeRecording(CairnRecording* recording) { delete recording; }
+
+CairnStatus cairnMeanVelocities(const CairnSolver* solver, CairnVelocity* velocities,
+                                int32_t count) {
+  if (solver == nullptr || (velocities == nullptr && count > 0)) return cairnNullPointer;
+  const bool solved = solver->last == cairnOk;
+  const auto bodies = static_cast<int32_t>(solver->velocities.size());
+  if (!solved || count != bodies) return cairnWrongSize;
+  const std::span<const Velocity> means = solver->solver.mean_velocities();
+  c::CopyVelocities(means.empty() ? std::span<const Velocity>(solver->velocities) : means,
+                    velocities);
+  return cairnOk;
+}
 
 int32_t cairnRecordingBodies(const CairnRecording* recording) {
   return recording == nullptr ? 0 : static_cast<int32_t>(recording->recording.bodies.size());

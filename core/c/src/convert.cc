@@ -95,6 +95,7 @@ Settings ToSettings(const CairnSettings& from) {
   settings.k_sm = from.kSm;
   settings.steps = from.steps;
   settings.max_sweeps = from.maxSweeps;
+  settings.substeps = from.substeps;
   settings.tolerance = from.tolerance;
   settings.budget = ToBudget(from.budgetKind, from.budget);
   settings.tuning.min_sweeps = from.minSweeps;
@@ -187,7 +188,8 @@ CairnStatus Look(const CairnProblem& from, const CairnSolution& solution, std::v
                    .contact_law = {.bounce_speed = from.bounceSpeed},
                    .twists = Over<const ContactTwist>(from.twists, from.twistCount),
                    .joints = Over<const Joint>(from.joints, from.jointCount),
-                   .joint_rows = Over<const JointRow>(from.jointRows, from.jointRowCount)};
+                   .joint_rows = Over<const JointRow>(from.jointRows, from.jointRowCount),
+                   .time_step = from.timeStep};
   view->impulses = {.points = Over<ContactImpulse>(solution.points, from.pointCount),
                     .twists = Over<TwistImpulse>(solution.twists, from.twistCount),
                     .joint_rows = Over<float>(solution.jointRows, from.jointRowCount)};

@@ -31,6 +31,7 @@ struct Body {
   Velocity velocity = {};
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();          ///< External, over the step [N s].
   Eigen::Vector3d angular_impulse = Eigen::Vector3d::Zero();  ///< External [N m s].
+  double strain = 0;  ///< How hard joints pull for the step, by GeometricStiffness; 4: too hard.
   /// Keeps its value while the body lives, 0 if there is no such name. What the solver learns about
   /// an island (does a step pay here?) is remembered under the smallest id in it.
   std::uint64_t id = 0;
@@ -60,6 +61,7 @@ struct ContactProblem {
   std::span<const ContactTwist> twists = {};  ///< One per point, or none.
   std::span<const Joint> joints = {};
   std::span<const JointRow> joint_rows = {};  ///< Of the joints; others are not looked at.
+  double time_step = 0;  ///< [s], >= 0; 0: unknown. Arms turn by it with Settings::substeps.
 };
 
 /// Rows of a problem, with those of joints and manifolds.

@@ -79,6 +79,8 @@ struct IslandReport {
   /// Work units charged for subspace steps, kept or not, without the sweeps around them. Steps that
   /// islands take together are shared out by rows.
   std::int64_t step_work = 0;
+  double strain = 0;  ///< Largest Body::strain; next: whose, and substeps that leave 2 of it.
+  int strained_body = -1, enough_substeps = 0;
   NoStep no_step = NoStep::kNotAsked;
   StopReason stop = StopReason::kNotStarted;
 };

@@ -19,9 +19,8 @@ enum class Method {
 /// How hard to try; the defaults are meant for a game. Plain data: Solve() refuses what is out of
 /// range (Status::kBadSettings) and names the first in Report::bad_setting.
 ///
-/// What few touch is in Tuning. Six fields that belong there (method, k_gs, k_sm, acceleration,
-/// step_policy, proximal_joints) are promised names of Settings, for `Settings{.k_gs = 5}` too,
-/// which rules out a base class.
+/// What few touch is in Tuning, but for six promised names: method, k_gs, k_sm, acceleration,
+/// step_policy, proximal_joints.
 struct Settings {
   Method method = Method::kPgsSm;
   Path path = Path::kAuto;  ///< Which engine. Report::path says which it was.
@@ -34,6 +33,7 @@ struct Settings {
   bool steps = true;  ///< Off: no subspace steps, as with k_sm = 0.
   /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed. At 0 the start comes back.
   int max_sweeps = 1000;
+  int substeps = 1;  ///< Parts of a step, in [1, 64]: Solver::mean_velocities(), docs/solver.md.
   /// Done when no row is further from its law than this: natural residual, in [m/s] for rows that
   /// act on points and in [rad/s] for rows that only turn, >= 0. 0 means never; Path::kAuto takes
   /// double precision below 1e-5.
@@ -48,9 +48,8 @@ struct Settings {
   Acceleration acceleration = Acceleration::kNncg;
   StepPolicy step_policy = StepPolicy::kMeasured;
   /// Proximal term of a step on rows without bounds (joints), relative to the diagonal of the row,
-  /// in [1e-12, 1]. Where joints are redundant, each step adds impulses of what they contradict
-  /// each other divided by it, which floats cannot hold against each other for long: there joints
-  /// are condensed, and softened if that is not enough. docs/solver.md, Guards.
+  /// in [1e-12, 1]. It lets impulses of redundant joints grow: these are condensed, and softened if
+  /// that is not enough. docs/solver.md, Guards.
   double proximal_joints = 1e-6;
 
   Tuning tuning = {};

@@ -47,6 +47,8 @@ class Solver {
     Solve(problem, Impulses{.rows = impulses}, velocities, report);
   }
 
+  /// Of the last Solve(), if it succeeded with Settings::substeps > 1: what each body moves by.
+  std::span<const Velocity> mean_velocities() const;
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();
   detail::Threads& threads();  ///< For hosts that read and write their objects on the same ones.

@@ -25,10 +25,15 @@ constexpr double kMostOfScalar = 2.2;
 /// By so much more where there was a step in the last frame: steps that come and go do harm.
 /// Without joints that is for one factorisation.
 constexpr double kSlack = 1.5;
+/// From which Body::strain on sweeps leave joints that part before they pull, whatever a step costs
+/// in terms of row by row. From half of it on dolls would be a fifth dearer.
+constexpr double kStrained = 1;
 /// Within so many tolerances sweeps do the rest.
 constexpr double kNear = 10;
 /// Error that a step meets at most where there was none in the last frame [m/s] or [rad/s].
 constexpr double kMostThrown = 1;
+/// The same where it is strained: what waits longer parts further.
+constexpr double kMostThrownStrained = 3;
 /// What measuring a step and undoing it costs, in sweeps.
 constexpr double kJudgingSweeps = 2;
 /// What costs more sweeps than this is not tried.
@@ -129,11 +134,14 @@ NoStep BlockCycle::Weigh(int g, int i) {
   const bool near = largest <= kNear * settings_->tolerance;
   // what sweeps have left unsolved for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
-  const bool thrown = !odds.stepped_most(bodies) && largest > kMostThrown;
+  const bool strained = steps_.strain(i) > kStrained;
+  const bool thrown =
+      !odds.stepped_most(bodies) && largest > (strained ? kMostThrownStrained : kMostThrown);
   if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
   const double rest = steps_.RestAlone(i, settings_->max_sweeps);
   const double scalar = steps_.ScalarAlone(i, settings_->max_sweeps);
-  const double most_price = std::min(kMostOfRest * rest, kMostOfScalar * scalar - rest);
+  const double most_price =
+      strained ? kMostOfRest * rest : std::min(kMostOfRest * rest, kMostOfScalar * scalar - rest);
   const auto fits = [&](int factorisations) {
     const bool slack = odds.stepped() && (factorisations == 1 || steps_.HasJoints(i));
     return steps_.PriceAlone(g, i, factorisations) <= (slack ? kSlack : 1) * most_price;

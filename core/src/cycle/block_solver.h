@@ -26,6 +26,8 @@ class BlockSolver {
                                  BudgetMeter* meter, const Impulses& impulses,
                                  std::span<Velocity> velocities, Report* report);
   IslandMemories& memories() { return memories_; }
+  /// Some body of the last problem has a Body::strain.
+  bool strained() const { return frame_.strained(); }
 
  private:
   PackResult Begin(const ContactProblem& problem, const Settings& settings,

@@ -67,6 +67,18 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
     double_step_ = std::make_unique<BlockStep<double>>(frame->target());
   }
   if (plan_number_ != frame->plan_number()) ReadPlan();
+  ReadStrains();
+}
+
+void BlockSteps::ReadStrains() {
+  strains_.clear();
+  if (!frame_->strained()) return;
+  const std::span<const int> island_of_body = frame_->plan().island_of_body();
+  strains_.assign(frame_->plan().islands().size(), 0);
+  for (size_t i = 0; i < problem_->bodies.size(); ++i) {
+    const int island = island_of_body[i];
+    if (island >= 0) strains_[island] = std::max(strains_[island], problem_->bodies[i].strain);
+  }
 }
 
 void BlockSteps::ReadPlan() {

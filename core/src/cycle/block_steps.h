@@ -54,6 +54,8 @@ class BlockSteps {
   /// many, less a margin; at least those, and at most twice as many.
   int SweepsOfEffort(int island, int iterations) const;
   bool HasJoints(int island) const { return in_double_[island] != 0; }
+  /// The largest Body::strain on an island.
+  double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// How many factorisations the next step on an island may make.
   void Limit(int island, int factorisations) { limits_[island] = factorisations; }
   int limit(int island) const { return limits_[island]; }
@@ -80,6 +82,7 @@ class BlockSteps {
   Precisions PrecisionsOf(std::span<const int> islands) const;
   IslandMemory* MemoryOf(int island);
   void ReadPlan();
+  void ReadStrains();
   void ReadIslands();
   void CountLines();
   template <class T>
@@ -121,6 +124,7 @@ class BlockSteps {
   };
   std::vector<Alike> alike_;         ///< by island
   std::vector<char> in_double_;      ///< by island
+  std::vector<double> strains_;      ///< by island, none if no body is strained
   std::vector<std::uint64_t> keys_;  ///< by island
   std::vector<IslandMemory*> memory_of_island_;
   std::vector<IslandStep> islands_, islands_now_;

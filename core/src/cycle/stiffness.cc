@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycle/joint_arms.h"
 #include "step/island_memories.h"
 
 namespace cairn {
@@ -23,26 +24,12 @@ constexpr double kKeep = 0.9;
 /// Moments of inertia that are this close have no axes of their own.
 constexpr double kSameMoment = 1e-3;
 
-constexpr double kUnit = 1e-3;  // how far directions of a joint may be from unit length, squared
-
 /// No stiffness about an axis is larger.
 double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
 
 /// At least the length of a vector.
 double Sum(const float (&vector)[3]) {
   return static_cast<double>(std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]));
-}
-
-/// The three linear parts are unit vectors at right angles to each other.
-bool AreAxes(const Eigen::Matrix3d& linear) {
-  return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kUnit;
-}
-
-/// The arm r of three rows l_i . v + (r x l_i) . omega.
-Eigen::Vector3d ArmOf(const Eigen::Matrix3d& linear, const Eigen::Matrix3d& angular) {
-  Eigen::Vector3d arm = Eigen::Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) arm += 0.5 * linear.col(i).cross(angular.col(i));
-  return arm;
 }
 
 /// Stiffness about each principal axis, at least what K turns by (Gershgorin).
@@ -81,7 +68,8 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
     const double most = 2 * (memory.stiffness * body.inv_inertia).norm();
     memory.held_ratio *= kHold;
-    if (time_step * time_step * std::max(most, memory.held_ratio) <= kThreshold) {
+    body.strain = time_step * time_step * std::max(most, memory.held_ratio);
+    if (body.strain <= kThreshold) {
       memory.held *= kHold;
       continue;
     }
@@ -95,7 +83,8 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
 
     const Eigen::Vector3d ratio = time_step * time_step * k.cwiseProduct(inv_moments);
-    if (ratio.maxCoeff() <= kThreshold) continue;
+    body.strain = ratio.maxCoeff();
+    if (body.strain <= kThreshold) continue;
     const Eigen::Vector3d kept =
         (1 + (ratio.array() - kThreshold).max(0)).inverse().matrix();  // I / raised I
     const Eigen::Vector3d damping = kDamping * (1 - kept.array()).matrix();

@@ -194,10 +194,12 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
   bodies_.resize(bodies.size());
   movable_now_.resize(bodies.size());
   WorstResult worst;
+  std::atomic<bool> strained{false};
   InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
     Finiteness<kNumbersOfMotion> motions;
     for (int i = first; i < first + count; ++i) {
       movable_now_[i] = MobilityOf(bodies[i]);
+      if (bodies[i].strain > 0) strained.store(true, std::memory_order_relaxed);
       if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kChanged);
       if (!FitsFloats(bodies[i], bodies_[i])) worst.Add(PackResult::kOutOfRange);
       if (!contacts) continue;
@@ -207,6 +209,7 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
     }
     if (!motions.all()) worst.Add(PackResult::kOutOfRange);
   });
+  strained_ = strained;
   return worst.get();
 }
 

@@ -32,6 +32,8 @@ class BlockFrame {
   /// Counts how often the plan was made.
   int plan_number() const { return plan_number_; }
   std::span<const WhitenedBody> bodies() const { return bodies_; }
+  /// Some body of the problem has a Body::strain.
+  bool strained() const { return strained_; }
   BlockData& blocks() { return blocks_; }
   std::span<simd::BlockError> errors() { return errors_; }
   /// Room for one number of each island, to sum errors with.
@@ -69,6 +71,7 @@ class BlockFrame {
   double omega_ = 1;
   size_t planned_rows_ = 0;
   bool planned_ = false;
+  bool strained_ = false;
   MovableBodies movable_, movable_now_;
   std::vector<WhitenedBody> bodies_;
   std::vector<simd::ContactBody> contact_bodies_;

@@ -8,8 +8,8 @@ namespace cairn {
 
 BadSetting FindBadSetting(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
-  const auto& [method, path, k_gs, k_sm, steps, max_sweeps, tolerance, budget, threads, executor,
-               acceleration, step_policy, proximal_joints, tuning] = settings;
+  const auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, tolerance, budget, threads,
+               executor, acceleration, step_policy, proximal_joints, tuning] = settings;
   const auto& [min_progress, min_sweeps, omega, proximal, refinements, lifted_friction, replay,
                spans, clock] = tuning;
   static_cast<void>(steps);  // any will do, and any of these
@@ -22,6 +22,9 @@ BadSetting FindBadSetting(const Settings& settings) {
   judge.AtLeast("k_gs", k_gs, 1);
   judge.Inside("k_sm", k_sm, 0, 1000, "0 to 1000");
   judge.AtLeast("max_sweeps", max_sweeps, 0);
+  // a replay is of one meter, and parts have one each
+  judge.Inside("substeps", substeps, 1, replay == nullptr ? 64 : 1,
+               replay == nullptr ? "1 to 64" : "1 in a replay");
   judge.AtLeast("tolerance", tolerance, 0);
   judge.AtLeast("tuning.min_progress", min_progress, 0);
   judge.Limit("budget", budget);

@@ -20,6 +20,7 @@ void Recording::Assign(const ContactProblem& problem, const Impulses& start) {
   joints.assign(problem.joints.begin(), problem.joints.end());
   joint_rows.assign(problem.joint_rows.begin(), problem.joint_rows.end());
   joint_impulses.assign(start.joint_rows.begin(), start.joint_rows.end());
+  time_step = problem.time_step;
 }
 
 Status WriteOutRows(const Recording& recording, Recording* rows) {

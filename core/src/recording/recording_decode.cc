@@ -117,7 +117,7 @@ RecordingStatus Layout::ReadHeader() {
                  "version " + Text(version_) + " of recordings is not known; this library reads " +
                      Text(kOldestVersion) + " to " + Text(kRecordingVersion));
   }
-  if (version_ == kOldestVersion) known_ = kOldestSections;
+  known_ = SectionsOf(version_);
   count_ = reader.U32();
   const std::uint64_t length = reader.U64();
   const std::uint32_t checksum = reader.U32();
@@ -308,12 +308,18 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   contents.Read(kJoints, &read.joints);
   contents.Read(kJointRows, &read.joint_rows);
   contents.Read(kJointImpulses, &read.joint_impulses);
+  std::vector<StepFields> step;
+  contents.Read(kStep, &step);
+  std::vector<double> strains;
+  contents.Read(kStrains, &strains);
   contents.Expect(kMotions, read.motions.empty() ? 0 : read.bodies.size());
   contents.Expect(kRowImpulses, read.rows.size());
   contents.Expect(kPointImpulses, read.points.size());
   contents.Expect(kTwists, read.twists.empty() ? 0 : read.points.size());
   contents.Expect(kTwistImpulses, read.twists.size());
   contents.Expect(kJointImpulses, read.joint_rows.size());
+  contents.Expect(kStep, 1);
+  contents.Expect(kStrains, strains.empty() ? 0 : read.bodies.size());
   if (!contents.status().ok()) return contents.status();
   if (source.size() > kMostSourceBytes) {
     return Fault(RecordingFault::kBadLayout,
@@ -321,6 +327,11 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   }
   read.source.assign(source.begin(), source.end());
   read.frame = frame.frame;
+  for (const StepFields& fields : step) {
+    read.time_step = fields.time_step;
+    read.settings.substeps = fields.substeps;
+  }
+  for (std::size_t i = 0; i < strains.size(); ++i) read.bodies[i].strain = strains[i];
   *recording = std::move(read);
   return {};
 }

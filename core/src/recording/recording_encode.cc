@@ -144,6 +144,15 @@ void AddSections(const Recording& recording, SectionWriter* to) {
   to->Add(kJoints, std::span(recording.joints));
   to->Add(kJointRows, std::span(recording.joint_rows));
   to->Add(kJointImpulses, std::span(recording.joint_impulses));
+  const StepFields step{recording.time_step, recording.settings.substeps};
+  to->Add(kStep, std::span(&step, 1));
+  std::vector<double> strains;
+  for (const Body& body : recording.bodies) {
+    if (body.strain == 0 && strains.empty()) continue;
+    strains.resize(recording.bodies.size());
+    strains[&body - recording.bodies.data()] = body.strain;
+  }
+  to->Add(kStrains, std::span<const double>(strains));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 
 namespace cairn {
 
-/// Written, and the oldest that is read: it knew no joints.
-inline constexpr std::uint32_t kRecordingVersion = 2, kOldestVersion = 1;
+/// Written, and the oldest that is read: it knew no joints. The second knew no substeps.
+inline constexpr std::uint32_t kRecordingVersion = 3, kOldestVersion = 1;
 /// No text begins like that, and whatever rewrites line ends destroys it.
 inline constexpr std::array<unsigned char, 8> kRecordingMagic = {0x89, 'C',  'R',  'N',
                                                                  '\r', '\n', 0x1a, '\n'};
@@ -40,14 +40,18 @@ enum Section {
   kJoints,
   kJointRows,
   kJointImpulses,
+  kStep,
+  kStrains,
   kSections
 };
-/// Of kOldestVersion.
-inline constexpr int kOldestSections = kJoints;
+/// That a version knows: the first ones.
+inline constexpr int SectionsOf(std::uint32_t version) {
+  return version == 1 ? kJoints : version == 2 ? kStep : kSections;
+}
 
 inline constexpr std::array<std::string_view, kSections> kSectionNames = {
-    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP",
-    "MANI", "PNTS", "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP"};
+    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP", "MANI",
+    "PNTS", "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP", "STEP", "STRN"};
 
 /// Adds up the bytes of fields.
 class FieldCounter {
@@ -81,6 +85,19 @@ std::size_t EntrySize() {
   FieldCounter counter;
   Visit(entry, counter);
   return counter.bytes();
+}
+
+/// How long the step is, and how it is cut.
+struct StepFields {
+  double time_step = 0;
+  int substeps = 1;
+};
+
+template <class Io>
+void Visit(StepFields& step, Io& io) {
+  io.F64(step.time_step);
+  io.I32(step.substeps);
+  io.Zeros(4);
 }
 
 struct FrameNumber {

@@ -181,6 +181,44 @@ class GridTest(AccuracyTest):
         self.assertIn("'pile'", self.refused(USAGE, "grid", "--scenes", "pule"))
 
 
+class TensionTest(AccuracyTest):
+    def test_every_cell_has_its_figures(self):
+        text, written = self.run_json("tension", "--stages", "plane,free", "--joints", "pin,hinge",
+                                      "--limits", "both", "--links", "1,2", "--loads", "10,100",
+                                      "--rates", "30,60", "--seconds", "0.5",
+                                      "--reference-links", "1")
+        # pins have no limits
+        self.assertEqual(len(written["cells"]), 2 * 3 * 2 * 2 * 2)
+        names = [cell["name"] for cell in written["cells"]]
+        self.assertEqual(len(set(names)), len(names))
+        for cell in written["cells"]:
+            self.assertIn("cairn", cell["solvers"])
+            self.assertIn("bullet-200", cell["solvers"])
+            for run in cell["solvers"].values():
+                if not run["failure"]:
+                    self.assertGreaterEqual(run["gap_m"], 0)
+                self.assertEqual("load_off" in run, cell["links"] == 1)
+            self.assertEqual(cell["solvers"]["cairn-sweeps"]["subspace_steps_per_step"], 0)
+        self.assertIn("## plane, hinge with limits, 30 Hz: largest gap [mm]", text)
+
+    def test_a_run_is_repeatable(self):
+        def cells():
+            found = self.run_json("tension", "--links", "3", "--loads", "100", "--seconds", "1",
+                                  "--solvers", "cairn,bullet-10")[1]["cells"]
+            for cell in found:
+                for run in cell["solvers"].values():
+                    del run["cpu_us_per_step"]
+            return found
+        self.assertEqual(cells(), cells())
+
+    def test_bad_input_is_refused_with_a_reason(self):
+        self.assertIn("did you mean 'hinge'", self.refused(USAGE, "tension", "--joints", "hing3"))
+        self.assertIn("--links", self.refused(USAGE, "tension", "--links", "0"))
+        self.assertIn("--seconds", self.refused(USAGE, "tension", "--seconds", "0"))
+        self.assertIn("cannot write",
+                      self.refused(BAD_INPUT, "tension", "--json", "/no/such/folder/r.json"))
+
+
 if __name__ == "__main__":
     TOOL = sys.argv.pop(1)
     unittest.main()

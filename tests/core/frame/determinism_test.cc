@@ -119,6 +119,14 @@ TEST(Determinism, OfWorkBudgetsHolds) {
   }
 }
 
+TEST(Determinism, OfSubstepsHolds) {
+  Settings settings = test::ColouredSteps(10);
+  settings.substeps = 3;
+  ExpectSameBitsEverywhere(SmallHeap(), settings, 10);
+  ExpectSameBitsEverywhere(ManyIslands(), settings, 5);
+  ExpectSameBitsEverywhere(LargeWall(), settings, 3);
+}
+
 /// A scene and what 20 frames of it hash to. Not a truth: a way for machines and compilers to say
 /// whether they agree.
 struct Golden {

@@ -155,13 +155,14 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   recording.replay = Replay{.work = 5, .fits = {1}};
   const Bytes bytes = EncodeAll(recording);
   EXPECT_EQ(NumberAt(bytes, 0, 8), 0x0a1a0a0d4e524389u);
-  EXPECT_EQ(NumberAt(bytes, 8, 4), 2u);
-  EXPECT_EQ(NumberAt(bytes, 12, 4), 17u);
+  EXPECT_EQ(NumberAt(bytes, 8, 4), 3u);
+  EXPECT_EQ(NumberAt(bytes, 12, 4), 19u);
   EXPECT_EQ(NumberAt(bytes, 16, 8), bytes.size());
   const std::pair<const char*, unsigned> sizes[] = {
-      {"INFO", 1},  {"FRAM", 8},   {"SETT", 104}, {"REPL", 1},  {"LAWS", 8},  {"BODY", 208},
-      {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8},   {"MANI", 20}, {"PNTS", 64}, {"PIMP", 28},
-      {"TWST", 16}, {"TIMP", 12},  {"JNTS", 36},  {"JROW", 64}, {"JIMP", 4}};
+      {"INFO", 1},   {"FRAM", 8},  {"SETT", 104}, {"REPL", 1},  {"LAWS", 8},
+      {"BODY", 208}, {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8},  {"MANI", 20},
+      {"PNTS", 64},  {"PIMP", 28}, {"TWST", 16},  {"TIMP", 12}, {"JNTS", 36},
+      {"JROW", 64},  {"JIMP", 4},  {"STEP", 16},  {"STRN", 8}};
   std::size_t entry = 32, data = 32 + 32 * std::size(sizes);
   for (const auto& [name, size] : sizes) {
     EXPECT_EQ(TableEntryOf(bytes, name), entry) << name;
@@ -191,17 +192,22 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   EXPECT_EQ(NumberAt(bytes, joint + 16, 4), recording.joints[0].bounded);
 }
 
-/// The file that version 1, which knew no joints, made of a recording without any.
-Bytes InVersion1(Bytes bytes) {
-  constexpr std::size_t kNew = 3 * 32;  // entries at the end of the table
-  const std::uint64_t sections = NumberAt(bytes, 12, 4) - 3;
+/// Of a recording without strains.
+constexpr std::size_t kBytesOfStep = 16;
+
+/// The file that a former version made of a recording whose last sections, so many of which that
+/// version did not know, have as many bytes.
+Bytes InVersion(int version, std::size_t unknown, std::size_t last_bytes, Bytes bytes) {
+  const std::size_t new_entries = unknown * 32;  // entries at the end of the table
+  const std::uint64_t sections = NumberAt(bytes, 12, 4) - unknown;
+  bytes.resize(bytes.size() - last_bytes);
   const std::size_t end = 32 + 32 * sections;
   for (std::size_t entry = 32; entry < end; entry += 32) {
-    PutNumber(NumberAt(bytes, entry + 8, 8) - kNew, entry + 8, 8, &bytes);
+    PutNumber(NumberAt(bytes, entry + 8, 8) - new_entries, entry + 8, 8, &bytes);
   }
   const auto cut = bytes.begin() + static_cast<std::ptrdiff_t>(end);
-  bytes.erase(cut, cut + kNew);
-  PutNumber(1, 8, 4, &bytes);
+  bytes.erase(cut, cut + static_cast<std::ptrdiff_t>(new_entries));
+  PutNumber(static_cast<std::uint64_t>(version), 8, 4, &bytes);
   PutNumber(sections, 12, 4, &bytes);
   PutNumber(bytes.size(), 16, 8, &bytes);
   test::RepairChecksums(&bytes);
@@ -213,9 +219,36 @@ TEST(Recording, OfVersion1IsRead) {
   recording.joints.clear();
   recording.joint_rows.clear();
   recording.joint_impulses.clear();
-  const Recording read = Decoded(InVersion1(EncodeAll(recording)));
+  // joints, their rows and impulses, the step, strains
+  const Recording read = Decoded(InVersion(1, 5, kBytesOfStep, EncodeAll(recording)));
   EXPECT_TRUE(read.joints.empty());
   EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
+}
+
+TEST(Recording, OfVersion2IsRead) {
+  const Recording recording = RandomRecording(5);
+  const Recording read = Decoded(InVersion(2, 2, kBytesOfStep, EncodeAll(recording)));
+  EXPECT_EQ(read.settings.substeps, 1);
+  EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
+}
+
+TEST(Recording, KeepsTheStepAndWhatStrains) {
+  Recording recording = RandomRecording(6);
+  recording.time_step = 0.015;
+  recording.settings.substeps = 3;
+  recording.bodies[1].strain = 7.5;
+  const Bytes bytes = EncodeAll(recording);
+  const std::size_t step = DataOf(bytes, "STEP"), strains = DataOf(bytes, "STRN");
+  EXPECT_EQ(std::bit_cast<double>(NumberAt(bytes, step, 8)), 0.015);
+  EXPECT_EQ(NumberAt(bytes, step + 8, 4), 3u);
+  EXPECT_EQ(std::bit_cast<double>(NumberAt(bytes, strains + 8, 8)), 7.5);
+  const Recording read = Decoded(bytes);
+  EXPECT_EQ(read.time_step, 0.015);
+  EXPECT_EQ(read.settings.substeps, 3);
+  EXPECT_EQ(read.bodies[1].strain, 7.5);
+  EXPECT_EQ(read.bodies[0].strain, 0);
+  EXPECT_EQ(EncodeAll(read), bytes);
+  EXPECT_TRUE(SameBits(SolveAgain(read), SolveAgain(recording)));
 }
 
 TEST(Recording, WithSettingsOfFormerTimesIsReadAndWrittenAsWhatTookTheirPlace) {

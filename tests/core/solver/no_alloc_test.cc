@@ -165,6 +165,13 @@ TEST_F(NoAlloc, OfAFixedNumberOfSweeps) {
   ExpectNoneAfterWarmUp(test::Wall(18, 17), Coloured(20));
 }
 
+TEST_F(NoAlloc, InSubsteps) {
+  Settings settings = Coloured(5);
+  settings.substeps = 3;
+  ExpectNoneAfterWarmUp(test::Wall(5, 5), settings);
+  ExpectNoneAfterWarmUp(test::HangingChain(9, 4), settings);
+}
+
 TEST_F(NoAlloc, WithinATimeBudgetWhileContactsBeginAndEnd) {
   for (const int us : {100, 1000, 4000}) {
     Settings settings = Coloured(1000);

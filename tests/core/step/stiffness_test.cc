@@ -158,6 +158,42 @@ TEST(Stiffness, LeavesIslandsAloneThatNothingHolds) {
   EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies).empty());
 }
 
+TEST(Stiffness, SaysHowMuchItStrains) {
+  const Scene scene = test::HangingChain(3, 1000);
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  const std::vector<Body> whole = Raised(scene, &stiffness);
+  // as in the first test
+  const double tension = (1000 + 1 + 0.5) * test::kGravityStep / kStep;
+  const double moment = scene.bodies[0].inv_inertia(0, 0);  // across the chain
+  EXPECT_NEAR(whole[0].strain, kStep * kStep * tension * moment, 0.01 * whole[0].strain);
+  GeometricStiffness again;
+  SolveAndLearn(scene, &again);
+  std::vector<Body> half = scene.bodies;
+  again.RaiseInertia(kStep / 2, half);
+  EXPECT_NEAR(half[0].strain, whole[0].strain / 4, 1e-9 * whole[0].strain);
+
+  GeometricStiffness calm;
+  SolveAndLearn(test::HangingChain(3, 1), &calm);
+  EXPECT_LT(Raised(test::HangingChain(3, 1), &calm)[0].strain, 2);
+}
+
+// Three links are so few that a step would take longer than all else, and heavy loads tear them.
+TEST(Stiffness, HasStepsTakenWhereItStrains) {
+  const auto steps = [](double strain) {
+    Scene scene = test::HangingChain(3, 1000);
+    for (Body& body : scene.bodies) body.strain = strain;
+    Settings settings{.max_sweeps = 10, .tolerance = 1e-4, .step_policy = StepPolicy::kWeighed};
+    Solver solver(settings);
+    int taken = 0;
+    for (int frame = 0; frame < 20; ++frame)
+      taken += test::Solve(&solver, scene).report.steps_accepted;
+    return taken;
+  };
+  EXPECT_EQ(steps(0), 0);
+  EXPECT_GT(steps(5), 10);
+}
+
 TEST(Stiffness, LearnsNothingFromWhatWasRefused) {
   Scene scene = test::HangingChain(3, 100);
   GeometricStiffness stiffness;

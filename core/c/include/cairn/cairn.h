@@ -140,6 +140,7 @@ typedef struct CairnProblem {
   const CairnJointRow* jointRows;
   int32_t bodyCount, manifoldCount, pointCount, twistCount, jointCount, jointRowCount;
   float bounceSpeed; /* bodies that approach slower do not bounce [m/s] */
+  float timeStep;    /* [s], or 0: with substeps, arms of joints turn by it */
 } CairnProblem;
 
 /* Impulses are read as the start, and written; velocities are written. One of each per point,
@@ -168,6 +169,7 @@ typedef struct CairnSettings {
   int32_t kGs, kSm; /* sweeps around a step, factorisations in it */
   bool steps;
   int32_t maxSweeps;
+  int32_t substeps; /* parts that the step is cut into, 1 to 64; see cairnMeanVelocities() */
   double tolerance; /* [m/s] */
   CairnBudgetKind budgetKind;
   int64_t budget;    /* nanoseconds, or units of work: 1 = 1 row relaxed */
@@ -259,6 +261,12 @@ CAIRN_API void cairnReset(CairnSolver* solver);
    allocating, subspace steps apart. */
 CAIRN_API CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
                                  const CairnSolution* solution, CairnReport* report);
+
+/* Of the last step, one per body: velocities on average. With substeps, bodies move by these over
+   the step and keep those that were written; without, they are the same. cairnWrongSize: not as
+   many as it had bodies, or it was refused. */
+CAIRN_API CairnStatus cairnMeanVelocities(const CairnSolver* solver, CairnVelocity* velocities,
+                                          int32_t count);
 
 /* Of the last step: one sentence; an island, 0 to islandCount - 1; the island of each body, -1 for
    none, until the next step. */

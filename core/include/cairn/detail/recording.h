@@ -33,6 +33,7 @@ struct Recording {
   std::vector<Joint> joints;
   std::vector<JointRow> joint_rows;
   std::vector<float> joint_impulses;  ///< The start, one per row of a joint.
+  double time_step = 0;               ///< ContactProblem::time_step [s].
 
   /// The pointers among them are not kept: they are nullptr.
   Settings settings;
@@ -40,7 +41,8 @@ struct Recording {
   std::optional<Replay> replay;
 
   ContactProblem problem() const {
-    return {bodies, rows, manifolds, points, contact_law, motions, twists, joints, joint_rows};
+    return {bodies,  rows,   manifolds, points,     contact_law,
+            motions, twists, joints,    joint_rows, time_step};
   }
   /// The start, in the memory of the recording: a Solve() puts its results there.
   Impulses impulses() { return {row_impulses, point_impulses, twist_impulses, joint_impulses}; }

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+
+namespace cairn {
+
+/// A time step in parts: the problem of each, made of that of the whole and of what its bodies did
+/// in the parts before.
+///
+///     for (substeps.Begin(problem, start, n); !substeps.done(); substeps.Advance()) {
+///       solve substeps.problem() into substeps.impulses() and substeps.velocities()
+///     }
+///     substeps.Write(impulses, velocities);
+///
+/// External impulses, bounds of impulses and compliances are those of an nth of the step. A row
+/// asks for a velocity; in the whole step that takes its bodies a way along it. What they are
+/// behind or ahead of that way after some parts is carried to the target of the next, to first
+/// order. Three rows of a joint that hold a point do better: their arms turn with the bodies, and
+/// what they are behind is measured. A gap is shared out to nobody: it is closed when it is used
+/// up, and bounces where it is.
+class Substeps {
+ public:
+  /// @pre the problem is valid, and outlives the parts; parts >= 1
+  void Begin(const ContactProblem& problem, const Impulses& start, int parts);
+  bool done() const { return part_ == parts_; }
+  /// Of parts that are not done, this one included.
+  int left() const { return parts_ - part_; }
+  /// The problem of the part, its start and where it ends.
+  ContactProblem problem() const;
+  Impulses impulses() { return {rows_x_, points_x_, twists_x_, joints_x_}; }
+  std::span<Velocity> velocities() { return velocities_; }
+  /// Takes up what came of the part, and goes on to the next.
+  void Advance();
+  /// The sum of all impulses, and velocities in the end.
+  void Write(const Impulses& impulses, std::span<Velocity> velocities) const;
+  /// By body: what velocities were on average.
+  std::span<const Velocity> means() const { return means_; }
+
+ private:
+  /// How a body moved so far, in velocities: the way times the length of the step.
+  struct Way {
+    Velocity start;   ///< of the step, as rows of joints and contacts see it
+    Velocity pushed;  ///< by external impulses over the step
+    Velocity now;     ///< when the part begins
+    Velocity way;
+    Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< since the step began
+    Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();      ///< the same
+  };
+  /// Three rows of a joint that hold a point, with its arms.
+  struct Held {
+    int joint, row;
+    Eigen::Vector3d arm_a, arm_b;
+  };
+
+  void Start(const Impulses& start);
+  void FindHeld();
+  void MoveBodies();
+  void MoveMotions();
+  void Turn(const Eigen::Vector3d& spin, Way* way) const;
+  /// What turns a body at once as the parts of the step did.
+  Eigen::Vector3d MeanSpin(const Way& way) const;
+  void Add();
+  void AimRows();
+  void AimJoints();
+  void AimHeld(const Held& held);
+  void AimPoints();
+  /// Targets of the part of a row with a target of the whole step that has come some way.
+  double AimBoth(double target, double way) const;
+  double AimOne(double target, double way) const;
+  template <class AnyRow>
+  double Along(const AnyRow& row, int body_a, int body_b, Velocity Way::*what) const;
+  double share() const { return 1.0 / parts_; }
+
+  ContactProblem whole_;
+  int parts_ = 1, part_ = 1;
+  std::vector<Body> bodies_;
+  std::vector<Row> rows_;
+  std::vector<ContactPoint> points_;
+  std::vector<ContactMotion> motions_;
+  std::vector<ContactTwist> twists_;
+  std::vector<JointRow> joint_rows_;
+  std::vector<double> rows_x_, rows_sum_;
+  std::vector<ContactImpulse> points_x_, points_sum_;  ///< of sums: direction is a push [N s]
+  std::vector<TwistImpulse> twists_x_, twists_sum_;
+  std::vector<float> joints_x_, joints_sum_;
+  std::vector<Velocity> velocities_, means_;
+  std::vector<Way> ways_;
+  std::vector<Held> held_;
+  std::vector<char> is_held_;  ///< by row of a joint
+};
+
+}  // namespace cairn
