@@ -246,7 +246,7 @@ bool BlockFrame::IsFinite() const {
             }
             if (!velocities.all()) all.store(false, std::memory_order_relaxed);
           },
-          {SpanKind::kResults});
+          {SpanKind::kResults, 0, -1});
   return all;
 }
 
@@ -257,9 +257,12 @@ void BlockFrame::End(const ContactProblem& problem, Crew* crew, const Impulses& 
     const Unit& of = plan_.units()[unit];
     packer.WriteImpulses(of.first_block, of.blocks, blocks_, impulses);
   };
-  ForUnits(static_cast<int>(plan_.units().size()), crew, write);
-  InParts(static_cast<int>(problem.bodies.size()), kBodiesOfUnit, crew,
-          [&](int first, int count) { packer.WriteVelocities(first, count, blocks_, velocities); });
+  ForUnits(static_cast<int>(plan_.units().size()), crew, write, {SpanKind::kResults});
+  const auto write_velocities = [&](int first, int count) {
+    packer.WriteVelocities(first, count, blocks_, velocities);
+  };
+  InParts(static_cast<int>(problem.bodies.size()), kBodiesOfUnit, crew, write_velocities,
+          {SpanKind::kResults});
 }
 
 }  // namespace cairn
