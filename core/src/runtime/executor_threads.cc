@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // In place of executor_tbb.cc where Cairn is built without oneTBB (CAIRN_TBB=OFF).
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -61,6 +62,10 @@ class ThreadExecutor final : public Executor {
 };
 
 }  // namespace
+
+int MostTbbThreads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 std::unique_ptr<Executor> MakeTbbExecutor(int threads) {
   return std::make_unique<ThreadExecutor>(threads);
