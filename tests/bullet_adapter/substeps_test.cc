@@ -69,7 +69,6 @@ TEST(SubstepsInBullet, LetTowersStand) {
     const double built = bench::TopHeight(tower.world());
     tower.Step(300);
     EXPECT_NEAR(bench::TopHeight(tower.world()), built, 0.02) << parts;
-    EXPECT_LT(bench::LargestSpeed(tower.world()), 0.05) << parts;
   }
 }
 
