@@ -12,10 +12,9 @@
 namespace cairn {
 
 /// Projected Gauss-Seidel with subspace minimisation, after [1] (contact_problem.h);
-/// docs/solver.md has our differences from the paper.
-///
-/// Different solvers may run at the same time, one solver may not. It keeps what it learnt about an
-/// island from frame to frame (see Body::id), never the problem.
+/// docs/solver.md has our differences from the paper. Different solvers may run at the same time,
+/// one may not. It keeps what it learnt about an island from frame to frame (see Body::id), never
+/// the problem.
 class Solver {
  public:
   explicit Solver(const Settings& settings = {});
@@ -47,8 +46,7 @@ class Solver {
     Solve(problem, Impulses{.rows = impulses}, velocities, report);
   }
 
-  /// Of the last Solve(), if it succeeded with Settings::substeps > 1: what each body moves by.
-  std::span<const Velocity> mean_velocities() const;
+  std::span<const Velocity> mean_velocities() const;  ///< With Settings::substeps > 1: moves bodies.
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();
   detail::Threads& threads();  ///< For hosts that read and write their objects on the same ones.
