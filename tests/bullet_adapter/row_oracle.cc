@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bullet_adapter/src/conversions.h"
+#include "cairn/detail/threads.h"
 #include "measure/instrumented_solver.h"
 #include "problem/contact_expansion.h"
 
@@ -166,8 +167,9 @@ void ReadOurs(const Substep& substep, const Substep::Group& group, const ChangeS
               const btContactSolverInfo& info, bullet::ContactForm form, bullet::FastGroup* ours) {
   substep.Restore();
   change(substep);
+  static detail::Threads alone;  // outlives what reads with it
   ours->Read({group.bodies, group.manifolds, group.joints}, info, bullet::SweepLimits::kBullet,
-             {.contacts = form}, 1);
+             {.contacts = form}, 1, &alone);
 }
 
 /// Sums of some ten products of numbers of up to ten, in floats.
