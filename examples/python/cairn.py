@@ -6,7 +6,7 @@ import ctypes.util
 
 import numpy
 
-VERSION = (0, 1, 0)
+VERSION = (0, 2, 0)
 WORLD = -1
 OK = 0
 UNLIMITED, TIME, WORK = range(3)

@@ -63,9 +63,7 @@ class ThreadExecutor final : public Executor {
 
 }  // namespace
 
-int MostTbbThreads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int MostTbbThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 std::unique_ptr<Executor> MakeTbbExecutor(int threads) {
   return std::make_unique<ThreadExecutor>(threads);
