@@ -77,7 +77,8 @@ void BlockSteps::ReadStrains() {
   strains_.assign(frame_->plan().islands().size(), 0);
   for (size_t i = 0; i < problem_->bodies.size(); ++i) {
     const int island = island_of_body[i];
-    if (island >= 0) strains_[island] = std::max(strains_[island], problem_->bodies[i].strain);
+    if (island < 0 || limited_[island] != 0) continue;
+    strains_[island] = std::max(strains_[island], problem_->bodies[i].strain);
   }
 }
 
@@ -96,6 +97,7 @@ void BlockSteps::ReadPlan() {
 void BlockSteps::ReadIslands() {
   const Plan& plan = frame_->plan();
   in_double_.assign(plan.islands().size(), 0);
+  limited_.assign(plan.islands().size(), 0);
   keys_.assign(plan.islands().size(), ~std::uint64_t{0});
   set_up_.assign(plan.islands().size(), kSetUpIsland);
   scalar_set_up_.assign(plan.islands().size(), 0);
@@ -104,8 +106,12 @@ void BlockSteps::ReadIslands() {
     const bool joints =
         std::any_of(block.rows, block.rows + block.row_count,
                     [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
+    const bool limited =
+        std::any_of(block.rows, block.rows + block.row_count,
+                    [](const simd::RowShape& row) { return row.bound == simd::RowBound::kOwn; });
     for (int lane = 0; lane < block.lanes; ++lane) {
       const int island = plan.island_of(b, lane);
+      if (limited) limited_[island] = 1;
       set_up_[island] += block.row_count * (joints ? kSetUpJointRow : kSetUpRow);
       scalar_set_up_[island] += block.row_count * (joints ? kScalarJointRow : kScalarRow);
       if (joints) in_double_[island] = 1;

@@ -54,7 +54,8 @@ class BlockSteps {
   /// many, less a margin; at least those, and at most twice as many.
   int SweepsOfEffort(int island, int iterations) const;
   bool HasJoints(int island) const { return in_double_[island] != 0; }
-  /// The largest Body::strain on an island.
+  /// The largest Body::strain on an island whose joints have neither limits nor motors: steps on
+  /// those throw bodies at times.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// How many factorisations the next step on an island may make.
   void Limit(int island, int factorisations) { limits_[island] = factorisations; }
@@ -124,6 +125,7 @@ class BlockSteps {
   };
   std::vector<Alike> alike_;         ///< by island
   std::vector<char> in_double_;      ///< by island
+  std::vector<char> limited_;        ///< by island: some row has bounds of its own
   std::vector<double> strains_;      ///< by island, none if no body is strained
   std::vector<std::uint64_t> keys_;  ///< by island
   std::vector<IslandMemory*> memory_of_island_;
