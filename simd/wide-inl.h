@@ -21,7 +21,7 @@ namespace cairn::simd {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Floats of a register that holds @p lanes of them at most.
+/// Floats of one register.
 template <class D>
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
 
@@ -108,10 +108,6 @@ template <class D>
 HWY_INLINE Registers<D, 1> Abs(const Registers<D, 1>& a) {
   return {hn::Abs(a.v)};
 }
-template <class D>
-HWY_INLINE Registers<D, 1> Neg(const Registers<D, 1>& a) {
-  return {hn::Neg(a.v)};
-}
 /// a where b > 0, else 0.
 template <class D>
 HWY_INLINE Registers<D, 1> WherePositive(const Registers<D, 1>& a, const Registers<D, 1>& b) {
@@ -120,10 +116,6 @@ HWY_INLINE Registers<D, 1> WherePositive(const Registers<D, 1>& a, const Registe
 template <class D, int n>
 HWY_INLINE Registers<D, n> Abs(const Registers<D, n>& a) {
   return {Abs(a.lo), Abs(a.hi)};
-}
-template <class D, int n>
-HWY_INLINE Registers<D, n> Neg(const Registers<D, n>& a) {
-  return {Neg(a.lo), Neg(a.hi)};
 }
 template <class D, int n>
 HWY_INLINE Registers<D, n> WherePositive(const Registers<D, n>& a, const Registers<D, n>& b) {

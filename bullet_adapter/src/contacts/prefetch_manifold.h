@@ -19,10 +19,10 @@ inline void PrefetchObject(const btCollisionObject& object) {
   Prefetch(begin + 192);  // its friction, and its index in the world
 }
 
-/// Manifolds lie all over the memory, and most of a large world are empty: how many points they
-/// have is asked for some ahead, their bodies and
-/// @p points a little ahead.
 enum class PrefetchPoints { kNo, kYes };
+
+/// Manifolds lie all over the memory, and most of a large world are empty: how many points they
+/// have is asked for some ahead, their bodies and, if wanted, their points a little ahead.
 inline void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i,
                            PrefetchPoints points = PrefetchPoints::kNo) {
   constexpr size_t kFar = 32, kNear = 8;
