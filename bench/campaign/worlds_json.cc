@@ -51,6 +51,9 @@ Json ToJson(const bench::WorldResult& result, const bench::CampaignOptions& opti
   for (size_t i = 0; i < result.bullet.size(); ++i) {
     solvers.push_back(ToJson(result.bullet[i], bench::BulletVariants()[i].name, {}));
   }
+  if (result.converged) {
+    solvers.push_back(ToJson(*result.converged, bench::ConvergedBullet().name, {}));
+  }
   for (size_t i = 0; i < result.trials.size(); ++i) {
     solvers.push_back(ToJson(result.trials[i], options.variants[i].name, result.findings[i]));
   }

@@ -173,6 +173,14 @@ std::string FailedWorlds(std::span<const WorldResult> results, std::span<const V
                             finding.value, finding.line);
         separator = ", ";
       }
+      const bool fast =
+          std::any_of(result.findings[i].begin(), result.findings[i].end(),
+                      [](const Finding& finding) { return IsOfSpeed(finding.oracle); });
+      if (fast && result.converged) {
+        text += fmt::format(" ({}: fastest {:.3g}, in the last quarter {:.3g})",
+                            bench::ConvergedBullet().name, result.converged->fastest,
+                            result.converged->late_fastest);
+      }
       text += "\n";
     }
   }

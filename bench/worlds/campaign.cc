@@ -56,6 +56,9 @@ WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed) {
   for (const Variant& variant : options.variants) {
     result.trials.push_back(RunTrial(trial, variant));
     result.findings.push_back(Judge(result.trials.back(), result.bullet, options.lines));
+    const bool fast = std::any_of(result.findings.back().begin(), result.findings.back().end(),
+                                  [](const Finding& finding) { return IsOfSpeed(finding.oracle); });
+    if (fast && !result.converged) result.converged = RunTrial(trial, ConvergedBullet());
   }
   return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "worlds/oracles.h"
@@ -15,6 +16,8 @@ struct WorldResult {
   std::vector<Trial> bullet;                   ///< In the order of BulletVariants().
   std::vector<Trial> trials;                   ///< In the order of the variants asked for.
   std::vector<std::vector<Finding>> findings;  ///< Of each trial.
+  /// ConvergedBullet(), where a trial is faster than an oracle allows.
+  std::optional<Trial> converged;
 
   bool failed() const;
 };

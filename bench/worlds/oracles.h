@@ -16,6 +16,11 @@ inline constexpr int kOracles = 7;
 /// "flies apart", "audit", ...
 std::string_view NameOf(Oracle oracle);
 
+/// Whether it fails where bodies are too fast.
+inline bool IsOfSpeed(Oracle oracle) {
+  return oracle == Oracle::kFliesApart || oracle == Oracle::kRestless;
+}
+
 /// Where oracles draw the line. A world that is chaotic ends differently with every solver: lines
 /// are far from what solvers differ by.
 struct Lines {

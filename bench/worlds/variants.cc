@@ -45,4 +45,9 @@ std::span<const Variant> BulletVariants() {
   return variants;
 }
 
+const Variant& ConvergedBullet() {
+  static const Variant variant = Bullet("bullet-10000", "Bullet with 10,000 iterations", 10'000);
+  return variant;
+}
+
 }  // namespace cairn::bench

@@ -392,5 +392,26 @@ TEST(Shrinking, RecordsAFrameOfCairn) {
   std::filesystem::remove(path);
 }
 
+// Steps of these worlds flung bodies off, at 70 to 90 m/s, before they were undone for that; each
+// in the precision and with the steps that did.
+TEST(Worlds, StepsThatFlungBodiesAreUndone) {
+  struct Case {
+    std::uint64_t seed;
+    size_t variant;  ///< of CairnVariants()
+    bool in_floats;
+  };
+  constexpr size_t kAsItComes = 0, kAlways = 3;
+  for (const Case& thrown :
+       {Case{121, kAlways, true}, Case{4249, kAlways, true}, Case{7330, kAsItComes, true},
+        Case{480, kAlways, false}, Case{850, kAsItComes, false}, Case{5290, kAsItComes, false}}) {
+    if (thrown.in_floats != kIsFloat) continue;
+    TrialOptions options;
+    options.world.seed = thrown.seed;
+    options.seconds = 3;
+    const Trial trial = RunTrial(options, CairnVariants()[thrown.variant]);
+    EXPECT_LT(trial.fastest, Trial::kTooFast) << thrown.seed;
+  }
+}
+
 }  // namespace
 }  // namespace cairn::bench

@@ -236,7 +236,7 @@ void BlockCycle::TakeSteps() {
   if (stepped_islands_.empty()) return;
   ChooseNone();
   for (int i : stepped_islands_) Choose(i);
-  if (guards_) steps_.FindMasses();
+  if (guards_) steps_.FindBefore();
   MeasureChosen(&before_);
   merits_before_.Find(frame_, chosen_);
   SetJudgingAside();
@@ -329,11 +329,14 @@ bool BlockCycle::IsBetterAlone(int i) {
 
 void BlockCycle::FindHarm() {
   merits_.Find(frame_, chosen_);
+  if (!guards_) return;
+  steps_.FindAfter();
   for (int i : stepped_islands_) {
     const double error = std::max(before_[i].max, before_[i].max_angular);
     states_[i].harmful =
-        guards_ && (merits_.of(i).is_worse_than_none() || IsTooMuch(steps_.result(i).joint_speed) ||
-                    IsTooViolent(merits_before_.of(i), merits_.of(i), steps_.mass(i), error));
+        merits_.of(i).is_worse_than_none() || IsTooMuch(steps_.result(i).joint_speed) ||
+        IsTooViolent(merits_before_.of(i), merits_.of(i), steps_.mass(i), error) ||
+        IsFlung(steps_.speed_before(i), steps_.speed_after(i), error);
   }
 }
 

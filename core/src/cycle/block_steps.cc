@@ -143,13 +143,36 @@ void BlockSteps::CountLines() {
   for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
 }
 
-void BlockSteps::FindMasses() {
-  const std::span<const int> island_of_body = frame_->plan().island_of_body();
-  masses_.assign(frame_->plan().islands().size(), 0);
-  for (size_t i = 0; i < problem_->bodies.size(); ++i) {
-    const double inv_mass = problem_->bodies[i].inv_mass;
-    if (island_of_body[i] >= 0 && inv_mass > 0) masses_[island_of_body[i]] += 1 / inv_mass;
+void BlockSteps::RaiseSpeeds(double share, std::vector<double>* speeds) const {
+  const Plan& plan = frame_->plan();
+  for (int i = 0; i < static_cast<int>(problem_->bodies.size()); ++i) {
+    const int island = plan.island_of_body()[i];
+    if (island < 0) continue;
+    const WhitenedBody& whitened = frame_->bodies()[i];
+    const float* const u = frame_->blocks().bodies[plan.slot_of_body()[i]].u;
+    const Eigen::Vector3d change =
+        whitened.linear.cwiseProduct(share * Eigen::Vector3d(u[0], u[1], u[2]));
+    const double speed = (SeenFreeVelocity(*problem_, whitened, i) + change).norm();
+    (*speeds)[island] = std::max((*speeds)[island], speed);
   }
+}
+
+void BlockSteps::FindBefore() {
+  const Plan& plan = frame_->plan();
+  masses_.assign(plan.islands().size(), 0);
+  for (size_t i = 0; i < problem_->bodies.size(); ++i) {
+    const int island = plan.island_of_body()[i];
+    const double inv_mass = problem_->bodies[i].inv_mass;
+    if (island >= 0 && inv_mass > 0) masses_[island] += 1 / inv_mass;
+  }
+  speeds_before_.assign(plan.islands().size(), 0);
+  RaiseSpeeds(0, &speeds_before_);
+  RaiseSpeeds(1, &speeds_before_);
+}
+
+void BlockSteps::FindAfter() {
+  speeds_after_.assign(frame_->plan().islands().size(), 0);
+  RaiseSpeeds(1, &speeds_after_);
 }
 
 IslandMemory* BlockSteps::MemoryOf(int island) {

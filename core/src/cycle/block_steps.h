@@ -66,9 +66,14 @@ class BlockSteps {
   bool given_up(int island) const { return given_up_[island] != 0; }
   /// What came of the last one; where it did not succeed, nothing changed.
   const StepResult& result(int island) const { return islands_[island].result; }
-  /// Finds what mass() says of every island.
-  void FindMasses();
+  /// Finds mass() and speed_before() of every island.
+  void FindBefore();
   double mass(int island) const { return masses_[island]; }  ///< of its bodies [kg]
+  /// Of its fastest body, without impulses or with those of then [m/s].
+  double speed_before(int island) const { return speeds_before_[island]; }
+  /// Finds speed_after() of every island.
+  void FindAfter();
+  double speed_after(int island) const { return speeds_after_[island]; }
   /// What was charged for it: its share of the group's, by rows.
   double work(int island) const { return work_[island]; }
   /// A guard undid something on the island.
@@ -86,6 +91,8 @@ class BlockSteps {
   void ReadStrains();
   void ReadIslands();
   void CountLines();
+  /// Raises them to those of bodies, with so much of what impulses change them by.
+  void RaiseSpeeds(double share, std::vector<double>* speeds) const;
   template <class T>
   BlockSystem<T>& SystemOf(int group);
   /// function(system) for each that the islands need.
@@ -131,7 +138,7 @@ class BlockSteps {
   std::vector<IslandMemory*> memory_of_island_;
   std::vector<IslandStep> islands_, islands_now_;
   std::vector<double> work_;    ///< by island
-  std::vector<double> masses_;  ///< likewise
+  std::vector<double> masses_, speeds_before_, speeds_after_;  ///< likewise
   std::vector<char> given_up_;  ///< likewise
   std::unique_ptr<BlockStep<float>> float_step_;
   std::unique_ptr<BlockStep<double>> double_step_;

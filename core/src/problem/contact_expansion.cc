@@ -87,6 +87,7 @@ struct ContactExpansion::Point {
 
 ContactExpansion::ContactExpansion(const ContactProblem& problem, const Impulses& start)
     : bodies_(problem.bodies),
+      motions_(problem.motions),
       rows_(problem.rows.begin(), problem.rows.end()),
       impulses_(start.rows.begin(), start.rows.end()),
       given_(rows_.size()),

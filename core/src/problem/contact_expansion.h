@@ -17,7 +17,9 @@ class ContactExpansion {
   /// @pre the problem is valid, but for its rows
   ContactExpansion(const ContactProblem& problem, const Impulses& start);
 
-  ContactProblem problem() const { return {.bodies = bodies_, .rows = rows_}; }
+  ContactProblem problem() const {
+    return {.bodies = bodies_, .rows = rows_, .motions = motions_};
+  }
   std::span<double> impulses() { return impulses_; }
   /// Writes impulses() to where they belong.
   void Write(const Impulses& impulses) const;
@@ -35,6 +37,7 @@ class ContactExpansion {
             const ContactProblem& problem) const;
 
   std::span<const Body> bodies_;
+  std::span<const ContactMotion> motions_;
   std::vector<Row> rows_;
   std::vector<double> impulses_;
   size_t given_ = 0;  ///< rows of the problem itself; those that are written out come behind

@@ -20,6 +20,12 @@ bool Whiten(const Body& body, WhitenedBody* whitened) {
   return factored && std::isfinite(sum) && body.inv_mass >= 0 && body.linear_factor.minCoeff() >= 0;
 }
 
+Eigen::Vector3d SeenFreeVelocity(const ContactProblem& problem, const WhitenedBody& whitened,
+                                 int body) {
+  if (problem.motions.empty()) return whitened.free.linear;
+  return Eigen::Map<const Eigen::Vector3f>(problem.motions[body].free_velocity).cast<double>();
+}
+
 Velocity Unwhiten(const WhitenedBody& body, const Eigen::Vector3d& linear,
                   const Eigen::Vector3d& angular) {
   return {body.free.linear + body.linear.cwiseProduct(linear),

@@ -25,6 +25,11 @@ struct WhitenedBody {
 /// False if the body would not pass Validate(), which then says why.
 bool Whiten(const Body& body, WhitenedBody* whitened);
 
+/// How fast joints and contacts see a body move without impulses: as ContactProblem::motions says,
+/// if there are any. Linear.
+Eigen::Vector3d SeenFreeVelocity(const ContactProblem& problem, const WhitenedBody& whitened,
+                                 int body);
+
 /// The velocity that u changes a body to.
 Velocity Unwhiten(const WhitenedBody& body, const Eigen::Vector3d& linear,
                   const Eigen::Vector3d& angular);

@@ -149,8 +149,11 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
   const Merit merit = MeasureMerit(island_, at_.state);
   const bool violent =
       IsTooViolent(MeasureMerit(island_, before.state), merit, island_.mass, Largest(residual_));
+  const double speed_before =
+      std::max(FastestBody(island_, before.state, 0), FastestBody(island_, before.state, 1));
+  const bool flung = IsFlung(speed_before, FastestBody(island_, at_.state, 1), Largest(residual_));
   const bool worse = merit.is_worse_than_none();
-  const bool sound = !guards_ || !(worse || violent || IsTooMuch(result.joint_speed));
+  const bool sound = !guards_ || !(worse || violent || flung || IsTooMuch(result.joint_speed));
   if (!sound) {
     report_.guards.step = true;
     memory_->Guarded();

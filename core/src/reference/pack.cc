@@ -65,6 +65,9 @@ PackedIsland Packer::Pack(const Island& island) const {
     local_[island.bodies[i]] = i + 1;
     const double inv_mass = problem_.bodies[island.bodies[i]].inv_mass;
     if (inv_mass > 0) packed.mass += 1 / inv_mass;
+    const WhitenedBody& whitened = bodies_[island.bodies[i]];
+    packed.motions.push_back(
+        {SeenFreeVelocity(problem_, whitened, island.bodies[i]), whitened.linear});
   }
   for (int i = 0; i < static_cast<int>(island.rows.size()); ++i) local_row_[island.rows[i]] = i;
 

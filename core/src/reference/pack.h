@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -34,6 +35,11 @@ struct PackedIsland {
   std::vector<PackedRow> rows;
   int bodies = 0;   ///< movable ones
   double mass = 0;  ///< of them [kg]
+  /// Of each: its velocity without impulses as rows see it, and what u changes it by.
+  struct Motion {
+    Eigen::Vector3d free, whitening;
+  };
+  std::vector<Motion> motions;
 };
 
 /// What iterations write. Always consistent: u = G' x, up to the rounding of increments.
@@ -71,6 +77,17 @@ inline void AddScaled(const Vector6& g, double scale, Vector6* u) {
 /// G u of one row.
 inline double RelativeVelocity(const PackedRow& row, const std::vector<Vector6>& u) {
   return Dot(row.g_a, u[row.a]) + Dot(row.g_b, u[row.b]);
+}
+
+/// The speed of the fastest body, with so much of the velocity changes [m/s].
+inline double FastestBody(const PackedIsland& island, const IslandState& state, double share) {
+  double fastest = 0;
+  for (size_t i = 0; i < island.motions.size(); ++i) {
+    const auto u = Eigen::Map<const Eigen::Vector3d>(state.u[i + 1].data());
+    const auto& [free, whitening] = island.motions[i];
+    fastest = std::max(fastest, (free + whitening.cwiseProduct(share * u)).norm());
+  }
+  return fastest;
 }
 
 /// w = G u + E x - target of one row.
