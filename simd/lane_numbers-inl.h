@@ -151,20 +151,18 @@ inline void FindSquares(const BodyLane* bodies, int count, double* squares) {
 constexpr int kPlaces = 8;
 
 inline double FindMost(const double* numbers, int count) {
-  double most[kPlaces] = {};
+  const hn::CappedTag<double, kPlaces> d;
+  constexpr int kWidth = static_cast<int>(hn::MaxLanes(d));
+  const auto larger = [](auto most, auto size)
+                          HWY_ATTR { return hn::IfThenElse(hn::Lt(most, size), size, most); };
+  auto most = hn::Zero(d);
   int i = 0;
-  for (; i + kPlaces <= count; i += kPlaces) {
-    for (int k = 0; k < kPlaces; ++k) {
-      const double size = numbers[i + k] < 0 ? -numbers[i + k] : numbers[i + k];
-      most[k] = most[k] < size ? size : most[k];
-    }
-  }
-  for (int k = 0; i < count; ++i, ++k) {
+  for (; i + kWidth <= count; i += kWidth) most = larger(most, hn::Abs(hn::LoadU(d, numbers + i)));
+  double all = hn::GetLane(hn::MaxOfLanes(d, most));
+  for (; i < count; ++i) {
     const double size = numbers[i] < 0 ? -numbers[i] : numbers[i];
-    most[k] = most[k] < size ? size : most[k];
+    all = all < size ? size : all;
   }
-  double all = 0;
-  for (const double one : most) all = all < one ? one : all;
   return all;
 }
 

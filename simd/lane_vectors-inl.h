@@ -19,26 +19,65 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kRootHalf = 0.70710678f;
 
-/// Four numbers of every lane from @p number on.
-HWY_INLINE void TransposeFour(const float* const* from, int number, Line* to) {
+using D = hn::CappedTag<float, kLanes>;
+using V = hn::Vec<D>;
+using M = hn::Mask<D>;
+constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
+
+HWY_INLINE V Set(float value) { return hn::Set(D(), value); }
+HWY_INLINE V Load(const Line& line, int l) { return hn::Load(D(), line.lane + l); }
+HWY_INLINE void Store(V v, Line* line, int l) { hn::Store(v, D(), line->lane + l); }
+
+/// Four numbers of the first lanes, a multiple of four, from @p number on. The other lanes get
+/// those of the first four: kernels compute all lanes, and have nothing else to compute there.
+/// Registers are stored whole, as they are read.
 #if HWY_TARGET == HWY_SCALAR
+HWY_INLINE void TransposeFour(const float* const* from, int lanes, int number, Line* to) {
   for (int l = 0; l < kLanes; ++l) {
-    for (int k = 0; k < 4; ++k) to[k].lane[l] = from[l][number + k];
+    for (int k = 0; k < 4; ++k) to[k].lane[l] = from[l < lanes ? l : l % 4][number + k];
   }
-#else
-  const hn::FixedTag<float, 4> d;
-  for (int l = 0; l < kLanes; l += 4) {
-    const auto r0 = hn::LoadU(d, from[l] + number), r1 = hn::LoadU(d, from[l + 1] + number);
-    const auto r2 = hn::LoadU(d, from[l + 2] + number), r3 = hn::LoadU(d, from[l + 3] + number);
-    const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
-    const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
-    hn::Store(hn::InterleaveLower(d, xy02, xy13), d, to[0].lane + l);
-    hn::Store(hn::InterleaveUpper(d, xy02, xy13), d, to[1].lane + l);
-    hn::Store(hn::InterleaveLower(d, zw02, zw13), d, to[2].lane + l);
-    hn::Store(hn::InterleaveUpper(d, zw02, zw13), d, to[3].lane + l);
-  }
-#endif
 }
+#else
+/// Four numbers of four lanes.
+struct Quad {
+  hn::Vec<hn::FixedTag<float, 4> > number[4];
+};
+
+HWY_INLINE Quad ReadQuad(const float* const* from, int number) {
+  const hn::FixedTag<float, 4> d;
+  const auto r0 = hn::LoadU(d, from[0] + number), r1 = hn::LoadU(d, from[1] + number);
+  const auto r2 = hn::LoadU(d, from[2] + number), r3 = hn::LoadU(d, from[3] + number);
+  const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
+  const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
+  return {{hn::InterleaveLower(d, xy02, xy13), hn::InterleaveUpper(d, xy02, xy13),
+           hn::InterleaveLower(d, zw02, zw13), hn::InterleaveUpper(d, zw02, zw13)}};
+}
+
+/// A number of as many quads as a register holds.
+template <class Lanes>
+HWY_INLINE hn::Vec<Lanes> Join(Lanes d, const Quad* quads, int number) {
+  if constexpr (hn::MaxLanes(Lanes()) == 4) {
+    return quads->number[number];
+  } else {
+    const hn::Half<Lanes> half;
+    return hn::Combine(d, Join(half, quads + hn::MaxLanes(half) / 4, number),
+                       Join(half, quads, number));
+  }
+}
+
+HWY_INLINE void TransposeFour(const float* const* from, int lanes, int number, Line* to) {
+  constexpr int kQuads = kWidth / 4;
+  const Quad first = ReadQuad(from, number);
+  for (int l = 0; l < kLanes; l += kWidth) {
+    Quad quads[kQuads];
+    for (int q = 0; q < kQuads; ++q) {
+      const int lane = l + 4 * q;
+      quads[q] = lane > 0 && lane < lanes ? ReadQuad(from + lane, number) : first;
+    }
+    for (int k = 0; k < 4; ++k) Store(Join(D(), quads, k), to + k, l);
+  }
+}
+#endif
 
 /// Four numbers of the first lanes, from @p number on: the way back.
 HWY_INLINE void StoreFour(const Line* const (&from)[4], int lanes, float* const* to, int number) {
@@ -60,15 +99,6 @@ HWY_INLINE void StoreFour(const Line* const (&from)[4], int lanes, float* const*
   }
 #endif
 }
-
-using D = hn::CappedTag<float, kLanes>;
-using V = hn::Vec<D>;
-using M = hn::Mask<D>;
-constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
-
-HWY_INLINE V Set(float value) { return hn::Set(D(), value); }
-HWY_INLINE V Load(const Line& line, int l) { return hn::Load(D(), line.lane + l); }
-HWY_INLINE void Store(V v, Line* line, int l) { hn::Store(v, D(), line->lane + l); }
 
 /// A vector in space, for as many lanes as a register holds.
 struct Vector {

@@ -14,6 +14,8 @@ namespace cairn::simd {
 // serves as J and as M^-1 J'.
 
 inline constexpr int kLanes = 16;
+/// The first lanes, in fours, that hold so many.
+inline constexpr int WholeQuads(int lanes) { return (lanes + 3) / 4 * 4; }
 
 /// One number of every lane, a cache line.
 struct alignas(64) Line {

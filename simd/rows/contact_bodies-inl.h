@@ -37,10 +37,13 @@ struct Bodies {
   }
 };
 
-HWY_INLINE void Gather(const ContactBody* const* from, Bodies* bodies) {
+/// @p lanes  of which there are bodies, a multiple of four
+HWY_INLINE void Gather(const ContactBody* const* from, int lanes, Bodies* bodies) {
   const float* numbers[kLanes];
-  for (int l = 0; l < kLanes; ++l) numbers[l] = from[l]->linear;
-  for (int k = 0; k < kContactBodyNumbers; k += 4) TransposeFour(numbers, k, bodies->number + k);
+  for (int l = 0; l < lanes; ++l) numbers[l] = from[l]->linear;
+  for (int k = 0; k < kContactBodyNumbers; k += 4) {
+    TransposeFour(numbers, lanes, k, bodies->number + k);
+  }
 }
 
 /// Writes the lines of a pair of PairForm::kContact; @p scale: r, by which directions are scaled.

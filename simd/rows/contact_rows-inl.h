@@ -39,7 +39,7 @@ struct Point {
 /// What resists turning at one point of all lanes.
 struct Twist {
   Line number[kTwistNumbers];
-  Line start[kTwistRows];
+  Line start[kTwistRows] = {};
   Line axis[kTwistRows][3];
 };
 
@@ -50,15 +50,15 @@ template <PairForm form>
 class Packer {
  public:
   Packer(const ContactLanes& lanes, Line* out, Line* x) : lanes_(lanes), out_(out), x_(x) {
-    Gather(lanes.a, &a_);
-    Gather(lanes.b, &b_);
+    Gather(lanes.a, lanes.lanes, &a_);
+    Gather(lanes.b, lanes.lanes, &b_);
     if constexpr (form == PairForm::kSingle) {
       const ContactBody* moving[kLanes];
-      for (int l = 0; l < kLanes; ++l) {
+      for (int l = 0; l < lanes.lanes; ++l) {
         moving[l] = lanes.second_moves[l] ? lanes.b[l] : lanes.a[l];
         sign_.lane[l] = lanes.second_moves[l] ? -1.0f : 1.0f;
       }
-      Gather(moving, &moving_);
+      Gather(moving, lanes.lanes, &moving_);
     }
   }
 
@@ -95,12 +95,14 @@ class Packer {
  private:
   void Read(int p, Point* point) const {
     const float *numbers[kLanes], *starts[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
+    for (int l = 0; l < lanes_.lanes; ++l) {
       numbers[l] = lanes_.point[l] + p * kPointNumbers;
       starts[l] = lanes_.start[l] + p * kStartStride;
     }
-    for (int k = 0; k < kPointNumbers; k += 4) TransposeFour(numbers, k, point->number + k);
-    TransposeFour(starts, 0, point->start);
+    for (int k = 0; k < kPointNumbers; k += 4) {
+      TransposeFour(numbers, lanes_.lanes, k, point->number + k);
+    }
+    TransposeFour(starts, lanes_.lanes, 0, point->start);
   }
 
   void Demand(M fits) { fits_ = hn::AllTrue(D(), fits) && fits_; }
@@ -167,12 +169,12 @@ class Packer {
 
   void ReadTwist(int p, const Point& point, Twist* twist) const {
     const float* numbers[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
+    for (int l = 0; l < lanes_.lanes; ++l) {
       numbers[l] = lanes_.twist[l] + p * kTwistNumbers;
       const float* const start = lanes_.twist_start[l] + p * kTwistRows;
       for (int k = 0; k < kTwistRows; ++k) twist->start[k].lane[l] = start[k];
     }
-    TransposeFour(numbers, 0, twist->number);
+    TransposeFour(numbers, lanes_.lanes, 0, twist->number);
     for (int l = 0; l < kLanes; l += kWidth) {
       const Vector n = At(point.number + kNormal, l), axis = At(point.axis, l);
       Put(n, twist->axis[0], l);
@@ -286,7 +288,7 @@ class Packer {
   Line* out_;
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle
-  Line sign_;              ///< of the moving body in a row
+  Line sign_ = {};         ///< of the moving body in a row
   Line scale_;             ///< of PairForm::kContact, see PutPair()
   bool fits_ = true;
 };

@@ -31,13 +31,14 @@ inline constexpr int kDirectionLines = 4;
 /// Points that a lane may have.
 inline constexpr int kMostPoints = 4;
 
-/// The manifolds of a block. Unused lanes: any that may be read.
+/// The manifolds of a block. Others than the first lanes are not looked at.
 struct ContactLanes {
   PairForm form;
   int points, tangents;
   bool soft, twists;
   float bounce_speed;
   bool spin_before_torques;
+  int lanes;  ///< In use: the first ones, a multiple of four.
   const ContactBody* a[kLanes] = {};
   const ContactBody* b[kLanes] = {};
   /// The movable one of a PairForm::kSingle is b.

@@ -29,17 +29,19 @@ template <PairForm form>
 class JointPacker {
  public:
   JointPacker(const JointLanes& lanes, Line* out, Line* x) : lanes_(lanes), out_(out), x_(x) {
-    Gather(lanes.a, &a_);
-    Gather(lanes.b, &b_);
-    for (int l = 0; l < kLanes; ++l) {
+    Gather(lanes.a, lanes.lanes, &a_);
+    Gather(lanes.b, lanes.lanes, &b_);
+    for (int l = 0; l < lanes.lanes; ++l) {
       damping_.lane[l] = lanes.damping[l];
       opposite_.lane[l] = lanes.opposite[l] ? 1 : 0;
       second_moves_.lane[l] = lanes.second_moves[l] ? 1 : 0;
     }
     if constexpr (form == PairForm::kSingle) {
       const ContactBody* moving[kLanes];
-      for (int l = 0; l < kLanes; ++l) moving[l] = lanes.second_moves[l] ? lanes.b[l] : lanes.a[l];
-      Gather(moving, &moving_);
+      for (int l = 0; l < lanes.lanes; ++l) {
+        moving[l] = lanes.second_moves[l] ? lanes.b[l] : lanes.a[l];
+      }
+      Gather(moving, lanes.lanes, &moving_);
     }
   }
 
@@ -67,11 +69,13 @@ class JointPacker {
  private:
   void Read(int i) {
     const float* numbers[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
+    for (int l = 0; l < lanes_.lanes; ++l) {
       numbers[l] = lanes_.row[l] + i * kJointNumbers;
       start_.lane[l] = lanes_.start[l][i];
     }
-    for (int k = 0; k < kJointNumbers; k += 4) TransposeFour(numbers, k, number_ + k);
+    for (int k = 0; k < kJointNumbers; k += 4) {
+      TransposeFour(numbers, lanes_.lanes, k, number_ + k);
+    }
     for (int l = 0; l < kLanes; l += kWidth) {
       // one side says it for both
       const M opposite = hn::Gt(Load(opposite_, l), hn::Zero(D()));
@@ -144,9 +148,9 @@ class JointPacker {
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle
   Line scale_;             ///< of PairForm::kContact, see PutPair()
-  Line damping_;
-  Line opposite_, second_moves_;        ///< 1 where that is so, else 0
-  Line number_[kJointNumbers], start_;  ///< of the row
+  Line damping_ = {};
+  Line opposite_ = {}, second_moves_ = {};   ///< 1 where that is so, else 0
+  Line number_[kJointNumbers], start_ = {};  ///< of the row
   bool fits_ = true;
 };
 

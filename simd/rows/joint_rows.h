@@ -20,11 +20,12 @@ enum JointNumber {
   kJointNumbers
 };
 
-/// The joints of a block. Unused lanes: any that may be read.
+/// The joints of a block. Others than the first lanes are not looked at.
 struct JointLanes {
   PairForm form;
   const RowShape* rows;
   int row_count;
+  int lanes;  ///< In use: the first ones, a multiple of four.
   const ContactBody* a[kLanes] = {};
   const ContactBody* b[kLanes] = {};
   /// The movable one of a PairForm::kSingle is b.

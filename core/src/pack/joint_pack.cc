@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-using simd::kLanes;
+using simd::WholeQuads;
 
 // a row is floats, in the order that kernels read
 static_assert(sizeof(JointRow) == simd::kJointNumbers * sizeof(float));
@@ -41,8 +41,11 @@ PackResult PackJoints(const BlockPacker& packer, int index, const Impulses& star
                       BlockData* blocks) {
   PrefetchRows(packer, index + 1);
   const simd::PairBlock& block = packer.plan.blocks()[index];
-  simd::JointLanes lanes{.form = block.form, .rows = block.rows, .row_count = block.row_count};
-  for (int lane = 0; lane < kLanes; ++lane) {
+  simd::JointLanes lanes{.form = block.form,
+                         .rows = block.rows,
+                         .row_count = block.row_count,
+                         .lanes = WholeQuads(block.lanes)};
+  for (int lane = 0; lane < lanes.lanes; ++lane) {
     // unused lanes do what the first one does
     const int used = lane < block.lanes ? lane : 0;
     const Joint& joint = JointOf(packer, index, used);

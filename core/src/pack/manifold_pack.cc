@@ -10,7 +10,7 @@
 namespace cairn {
 namespace {
 
-using simd::kLanes;
+using simd::WholeQuads;
 
 // a point and an impulse are rows of floats, in the order that kernels read
 static_assert(sizeof(ContactPoint) == simd::kPointNumbers * sizeof(float));
@@ -91,8 +91,9 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
                            .soft = first.soft,
                            .twists = first.twists,
                            .bounce_speed = law.bounce_speed,
-                           .spin_before_torques = law.host.spin_before_torques};
-  for (int lane = 0; lane < kLanes; ++lane) {
+                           .spin_before_torques = law.host.spin_before_torques,
+                           .lanes = WholeQuads(block.lanes)};
+  for (int lane = 0; lane < lanes.lanes; ++lane) {
     // unused lanes do what the first one does
     const int used = lane < block.lanes ? lane : 0;
     const Pair& pair = packer.plan.pair(index, used);

@@ -39,7 +39,7 @@ struct PackedIsland {
   struct Motion {
     Eigen::Vector3d free, whitening;
   };
-  std::vector<Motion> motions;
+  std::vector<Motion> motions = {};
 };
 
 /// What iterations write. Always consistent: u = G' x, up to the rounding of increments.

@@ -24,10 +24,10 @@ double ScaleOf(double largest) {
 }
 
 /// Where 0 is outside the bounds of a row, the bit of its lane.
-std::uint32_t WithoutZero(const simd::RowShape& row, const simd::Line* bounds) {
+std::uint32_t WithoutZero(const simd::RowShape& row, const simd::Line* bounds, int lanes) {
   if (row.bound != simd::RowBound::kOwn) return 0;
   std::uint32_t without = 0;
-  for (int l = 0; l < kLanes; ++l) {
+  for (int l = 0; l < lanes; ++l) {
     const bool zero = bounds[0].lane[l] <= 0 && bounds[1].lane[l] >= 0;
     without |= zero ? 0 : std::uint32_t{1} << l;
   }
@@ -40,7 +40,7 @@ std::uint32_t WithoutZero(const simd::PairBlock& block, const BlockData& data) {
   const simd::Line* line = data.data.data() + block.data + simd::PairLines(block.form);
   for (const simd::RowShape& row : std::span(block.rows, block.row_count)) {
     const int laws = 2 + (row.soft ? 1 : 0) + (row.relaxed ? 1 : 0);
-    without |= WithoutZero(row, line + simd::JacobianLines(block.form) + laws);
+    without |= WithoutZero(row, line + simd::JacobianLines(block.form) + laws, block.lanes);
     line += simd::RowLines(block.form, row);
   }
   return without;
