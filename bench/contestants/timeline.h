@@ -32,7 +32,7 @@ class TimelineRecorder {
  public:
   explicit TimelineRecorder(int workers);
 
-  /// For Settings::spans.
+  /// For Tuning::spans.
   SpanRecorder* spans() { return &spans_; }
 
   /// A frame begins, on this thread. One recorder at a time.

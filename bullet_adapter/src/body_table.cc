@@ -72,7 +72,7 @@ class GyroscopicTerms {
 };
 
 /// Bodies lie all over the memory; all of one is read.
-void PrefetchBehind(std::span<btCollisionObject* const> objects, size_t i) {
+void PrefetchAhead(std::span<btCollisionObject* const> objects, size_t i) {
   constexpr size_t kAhead = 4;
   if (i + kAhead >= objects.size()) return;
   Prefetch(objects[i + kAhead], sizeof(btRigidBody));
@@ -113,7 +113,7 @@ void BodyTable::EnterInOrder(std::span<btCollisionObject* const> objects,
   GyroscopicTerms terms(info, &motions_);
   for (size_t i = 0; i < objects.size(); ++i) {
     const btCollisionObject* const object = objects[i];
-    PrefetchBehind(objects, i);
+    PrefetchAhead(objects, i);
     const int before = size();
     const Party& party = PartyOf(*object);
     if (party.number < before || !party.reacts) continue;
@@ -155,7 +155,7 @@ bool BodyTable::EnterInParts(std::span<btCollisionObject* const> objects,
 BodyTable::Part BodyTable::Count(std::span<btCollisionObject* const> objects) {
   Part part;
   for (size_t i = 0; i < objects.size(); ++i) {
-    PrefetchBehind(objects, i);
+    PrefetchAhead(objects, i);
     const int index = objects[i]->getWorldArrayIndex();
     part.regular = index >= 0 && index < static_cast<int>(slots_.size()) &&
                    claims_[index].exchange(substep_, std::memory_order_relaxed) != substep_;
@@ -171,7 +171,7 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
   GyroscopicTerms terms(info, &motions_);
   int number = first;
   for (size_t i = 0; i < objects.size(); ++i) {
-    PrefetchBehind(objects, i);
+    PrefetchAhead(objects, i);
     const btCollisionObject& object = *objects[i];
     Slot& slot = slots_[object.getWorldArrayIndex()];
     slot.object = &object;

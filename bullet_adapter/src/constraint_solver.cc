@@ -358,6 +358,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   if (impl_->report.ok() && !impl_->rows.FitsBullet()) impl_->report.status = Status::kOverflow;
   if (recording) impl_->recorder->End(settings, impl_->report);
   if (!impl_->report.ok()) {
+    impl_->fell_back = true;
     return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyIterations(
         bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
         debug_drawer);

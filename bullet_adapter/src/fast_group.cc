@@ -43,7 +43,7 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
   ContactRowBuilder builder(law, bodies_, &group_, &pushes_);
   ManifoldInput input;
   for (size_t i = 0; i < manifolds.size(); ++i) {
-    PrefetchBehind(manifolds, i, PrefetchPoints::kYes);
+    PrefetchAhead(manifolds, i, PrefetchPoints::kYes);
     btPersistentManifold* const manifold = manifolds[i];
     const bool taken =
         form == ContactForm::kManifolds && contacts_.Append(manifold, &bodies_, &pushes_);

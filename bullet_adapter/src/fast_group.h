@@ -25,7 +25,7 @@ inline namespace CAIRN_BULLET_PRECISION {
 struct Group {
   std::span<btCollisionObject* const> bodies;
   std::span<btPersistentManifold* const> manifolds;
-  Joints joints;
+  JointSpan joints;
 };
 
 /// The rows of a group without Bullet's set-up, and its results without Bullet's finish.

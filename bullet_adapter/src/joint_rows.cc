@@ -82,7 +82,7 @@ void Put(const btScalar* from, float* to) {
 
 }  // namespace
 
-bool AllOfKnownType(Joints joints) {
+bool AllOfKnownType(JointSpan joints) {
   return std::ranges::all_of(joints, [](const btTypedConstraint* joint) {
     switch (joint->getConstraintType()) {
       case POINT2POINT_CONSTRAINT_TYPE:
@@ -101,7 +101,7 @@ bool AllOfKnownType(Joints joints) {
   });
 }
 
-void JointRowBuilder::Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits,
+void JointRowBuilder::Append(JointSpan joints, const btContactSolverInfo& info, SweepLimits limits,
                              ContactForm form) {
   most_sweeps_ = 0;
   constexpr size_t kAhead = 2;

@@ -17,12 +17,12 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
 /// The joints of a group.
-using Joints = std::span<btTypedConstraint* const>;
+using JointSpan = std::span<btTypedConstraint* const>;
 
 /// Whether every joint is of a class that Bullet ships. Classes of users go by Bullet's own set-up:
 /// they may count on what it does around them. The type a joint states is all there is to go by;
 /// which virtual functions a class overrides cannot be asked portably.
-bool AllOfKnownType(Joints joints);
+bool AllOfKnownType(JointSpan joints);
 
 /// Asks joints for their rows.
 class JointRowBuilder {
@@ -30,7 +30,8 @@ class JointRowBuilder {
   /// Prepares every joint for the substep, as Bullet does also for those that are disabled, and
   /// appends the rows of those that are enabled.
   /// @pre the memory has begun the group.
-  void Append(Joints joints, const btContactSolverInfo& info, SweepLimits limits, ContactForm form);
+  void Append(JointSpan joints, const btContactSolverInfo& info, SweepLimits limits,
+              ContactForm form);
 
   /// What Append() reads and fills; all must outlive the builder.
   JointRowBuilder(BodyTable* bodies, JointMemory* memory, GroupProblem* group)

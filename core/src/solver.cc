@@ -110,6 +110,8 @@ void ForgetReport(Report* report) {
   Replay replay = std::move(report->replay);
   islands.clear();
   island_of.clear();
+  replay.fits.clear();
+  replay.work = Replay{}.work;
   *report = Report{};
   report->islands = std::move(islands);
   report->island_of = std::move(island_of);
@@ -366,8 +368,6 @@ void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& i
   }
   if (!report->ok()) return;
   const Budget whole = settings.budget;
-  report->replay.fits.clear();
-  report->replay.work = Replay{}.work;
   for (substeps.Begin(problem, impulses, settings.substeps); !substeps.done(); substeps.Advance()) {
     const auto elapsed = whole.kind() == Budget::Kind::kTime ? ReadClock(clock) - begin
                                                              : std::chrono::nanoseconds(0);

@@ -10,7 +10,7 @@ namespace cairn::simd {
 // target: one register of AVX-512, two of AVX2, four of SSE4. Layout, padding and results do not
 // depend on the CPU.
 //
-// Velocities are whitened (core/src/reference/pack.h): u = G' x, so that one vector G per row
+// Velocities are whitened (core/src/problem/whitening.h): u = G' x, so that one vector G per row
 // serves as J and as M^-1 J'.
 
 inline constexpr int kLanes = 16;

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: MIT The manifolds of a group on several threads: whom they are between,
-// then, where nobody was new, their points, each part into its place.
-#include <algorithm>
+// SPDX-License-Identifier: MIT
+// The manifolds of a group on several threads: whom they are between, then, where nobody was new,
+// their points, each part into its place.
 
 #include "cairn/detail/prefetch.h"
 #include "contacts/contact_points.h"
@@ -64,7 +64,7 @@ void ContactPoints::FindEntries(std::span<btPersistentManifold* const> manifolds
   part->points = 0;
   part->strange = part->written_out = false;
   for (size_t i = 0; i < manifolds.size(); ++i) {
-    PrefetchBehind(manifolds, i);
+    PrefetchAhead(manifolds, i);
     btPersistentManifold* const manifold = manifolds[i];
     if (manifold->getNumContacts() == 0) continue;
     const Entry entry{manifold, bodies.Find(*manifold->getBody0()),

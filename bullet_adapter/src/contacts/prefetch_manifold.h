@@ -23,8 +23,8 @@ enum class PrefetchPoints { kNo, kYes };
 
 /// Manifolds lie all over the memory, and most of a large world are empty: how many points they
 /// have is asked for some ahead, their bodies and, if wanted, their points a little ahead.
-inline void PrefetchBehind(std::span<btPersistentManifold* const> manifolds, size_t i,
-                           PrefetchPoints points = PrefetchPoints::kNo) {
+inline void PrefetchAhead(std::span<btPersistentManifold* const> manifolds, size_t i,
+                          PrefetchPoints points = PrefetchPoints::kNo) {
   constexpr size_t kFar = 32, kNear = 8;
   if (i + kFar < manifolds.size()) {
     // the number of points is a little before it, maybe in another line

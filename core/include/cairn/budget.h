@@ -16,11 +16,11 @@ class Budget {
   /// No limit: Settings::tolerance and Settings::max_sweeps decide.
   static constexpr Budget Unlimited() { return Budget(Kind::kUnlimited, 0); }
 
-  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every 8192
-  /// rows, and what writing the results will take is set aside; a subspace step starts only if its
-  /// predicted cost and the sweeps after it fit, and is given up where it takes longer. Results
-  /// depend on the machine: Report::replay says how to make them again. cairn::lcp reads the clock
-  /// between sweeps and between factorisations, not inside them.
+  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every
+  /// 10,000 rows, and what writing the results will take is set aside; a subspace step starts only
+  /// if its predicted cost and the sweeps after it fit, and is given up where it takes longer.
+  /// Results depend on the machine: Report::replay says how to make them again, of one substep.
+  /// cairn::lcp reads the clock between sweeps and between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());
   }

@@ -31,7 +31,7 @@ struct Body {
   Velocity velocity = {};
   Eigen::Vector3d impulse = Eigen::Vector3d::Zero();          ///< External, over the step [N s].
   Eigen::Vector3d angular_impulse = Eigen::Vector3d::Zero();  ///< External [N m s].
-  double strain = 0;  ///< How hard joints pull for the step, by GeometricStiffness; 4: too hard.
+  double strain = 0;  ///< h^2 k / I by GeometricStiffness, of joints that pull; 4 would blow up.
   /// Keeps its value while the body lives, 0 if there is no such name. What the solver learns about
   /// an island (does a step pay here?) is remembered under the smallest id in it.
   std::uint64_t id = 0;

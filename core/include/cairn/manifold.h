@@ -3,7 +3,6 @@
 #include "cairn/detail/cpp20.h"
 
 #include <cstdint>
-#include <span>
 
 #include "cairn/detail/host.h"
 

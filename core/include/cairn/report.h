@@ -12,12 +12,12 @@
 
 namespace cairn {
 
-/// Which engine solves.
+/// Which code solves.
 enum class Path {
   kAuto,  ///< kFast, unless Settings::tolerance is too fine for floats: positive and below 1e-5.
   /// In floats, 16 pairs of bodies at a time in vector registers, colour by colour, on all threads;
   /// the same bits for any instruction set and number of threads. What floats cannot hold (a start
-  /// or 1 / d beyond 1e12, say) is left to kReference.
+  /// or d = J M^-1 J' + E beyond 1e12, say) is left to kReference.
   kFast,
   /// In double precision, row by row in the order of the problem, on one thread, without
   /// acceleration: slower, and the specification of the method. See docs/solver.md.
@@ -32,11 +32,11 @@ enum class Status {
   kWrongSize,     ///< A span has not one entry per row, point or body that it is for.
   kNotFinite,     ///< NaN, or infinity anywhere but in a bound; a bounce speed below 0.
   kBadMass,     ///< Negative inverse mass, or inverse inertia not symmetric positive semidefinite.
-  kNoSuchBody,  ///< A row or manifold names a body that is not there, or the same one twice.
-  kBadBounds,   ///< lo > hi.
+  kNoSuchBody,  ///< A row, joint or manifold names a body that is not there, or one twice.
+  kBadBounds,   ///< lo > hi, lo = +inf or hi = -inf; 0 is outside those of a row of friction.
   kBadCompliance,  ///< Negative compliance, or relaxation outside (0, 2).
   kBadParent,      ///< Not an earlier row of the same two bodies with bounds of its own.
-  kBadFriction,    ///< Negative friction coefficient, or restitution.
+  kBadFriction,    ///< Negative friction, restitution, or bound of a ContactTwist.
   kOverflow,       ///< Numbers are finite, but too large or too far apart for a finite result.
 };
 
@@ -60,7 +60,7 @@ struct [[nodiscard]] Report {
   StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
                                               ///< any island before a sweep limit before the rest.
   std::int64_t work = 0;                      ///< Work units spent; see Budget::Work.
-  Replay replay;                              ///< With Budget::Time.
+  Replay replay;                              ///< With Budget::Time and one substep.
   std::chrono::nanoseconds elapsed{0};        ///< Wall clock of the Solve(), whatever the budget.
   /// What subspace steps were predicted to take, with the factorisations that they made, and what
   /// they took, without the sweeps around them: with Budget::Time, else 0.

@@ -10,7 +10,7 @@
 
 namespace cairn {
 
-/// Why the iteration ended.
+/// Why the iteration ended. Of several islands the last in this order is told.
 enum class StopReason {
   kNotStarted,  ///< The input was refused.
   kConverged,   ///< Residual <= Settings::tolerance.
@@ -48,9 +48,9 @@ struct Residual {
 /// island on which a step or the result was guarded is left to sweeps for a while. Method::kPgsSm
 /// with LiftedFriction::kRelease only; plain methods are what their names say.
 struct Guards {
-  bool start = false;  ///< The start impulses were worse than none, and scaled down.
-  bool step = false;   ///< A subspace step was undone: it put in energy, or left impulses of joints
-                       ///< that floats cannot hold against each other.
+  bool start = false;   ///< The start impulses were worse than none, and scaled down.
+  bool step = false;    ///< A subspace step was undone: it put in energy, threw or flung bodies, or
+                        ///< left impulses that floats cannot hold against each other.
   bool result = false;  ///< The impulses of the last sweep were worse than none, and scaled down.
 
   bool any() const { return start || step || result; }
@@ -79,7 +79,7 @@ struct IslandReport {
   /// Work units charged for subspace steps, kept or not, without the sweeps around them. Steps that
   /// islands take together are shared out by rows.
   std::int64_t step_work = 0;
-  double strain = 0;  ///< Largest Body::strain; next: whose, and substeps that leave 2 of it.
+  double strain = 0;  ///< Largest Body::strain; next: whose, and substeps that bring it to 2.
   int strained_body = -1, enough_substeps = 0;
   NoStep no_step = NoStep::kNotAsked;
   StopReason stop = StopReason::kNotStarted;

@@ -23,7 +23,7 @@ enum class Method {
 /// step_policy, proximal_joints.
 struct Settings {
   Method method = Method::kPgsSm;
-  Path path = Path::kAuto;  ///< Which engine. Report::path says which it was.
+  Path path = Path::kAuto;  ///< Which code. Report::path says which it was.
   /// Sweeps before each subspace step, and again after it, >= 1. Five are enough to smooth what the
   /// step leaves behind; two are not.
   int k_gs = 5;
@@ -33,7 +33,7 @@ struct Settings {
   bool steps = true;  ///< Off: no subspace steps, as with k_sm = 0.
   /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed. At 0 the start comes back.
   int max_sweeps = 1000;
-  int substeps = 1;  ///< Parts of a step, in [1, 64]: Solver::mean_velocities(), docs/solver.md.
+  int substeps = 1;  ///< Parts of a step, in [1, 64], see docs/solver.md; 1 with Tuning::replay.
   /// Done when no row is further from its law than this: natural residual, in [m/s] for rows that
   /// act on points and in [rad/s] for rows that only turn, >= 0. 0 means never; Path::kAuto takes
   /// double precision below 1e-5.
@@ -42,7 +42,8 @@ struct Settings {
   /// Threads that may work on one Solve(), the caller included, in [1, 1024]. Results are the same
   /// for any number. Problems too small to gain stay on the caller's.
   int threads = 1;
-  /// Where the other threads come from; nullptr: oneTBB. Must outlive every Solve().
+  /// Where the other threads come from; nullptr: oneTBB, or std::thread where built without. Must
+  /// outlive every Solve().
   Executor* executor = nullptr;
 
   Acceleration acceleration = Acceleration::kNncg;

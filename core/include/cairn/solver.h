@@ -26,17 +26,17 @@ class Solver {
   const Settings& settings() const;
 
   /// Solves one time step.
-  /// @param[in,out] impulses  one per row and one per point of contact: the start (a warm start, or
-  ///                          zeros; brought inside the bounds first) and the result.
+  /// @param[in,out] impulses  one per row, row of a joint, point and twist: the start (or zeros;
+  ///                          brought inside the bounds first) and the result.
   /// @param[out] velocities   one per body: velocities at the end of the step.
   /// Bad input: the report says what and where (see Describe()), nothing is written.
   [[nodiscard]] Report Solve(const ContactProblem& problem, const Impulses& impulses,
                              std::span<Velocity> velocities);
-  /// The same into a report of an earlier call, whose memory is used again. Once a problem has been
-  /// solved, one that is no larger is solved without allocating, subspace steps apart.
+  /// The same into a report of an earlier call, whose memory is used again. After a problem on
+  /// Path::kFast one that is no larger is solved without allocating, subspace steps apart.
   void Solve(const ContactProblem& problem, const Impulses& impulses,
              std::span<Velocity> velocities, Report* report);
-  /// A problem without manifolds.
+  /// A problem without joints and manifolds.
   [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
                              std::span<Velocity> velocities) {
     return Solve(problem, Impulses{.rows = impulses}, velocities);

@@ -67,7 +67,7 @@ struct Tuning {
   int refinements = 1;
   detail::LiftedFriction lifted_friction = detail::LiftedFriction::kRelease;
   /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
-  /// nullptr: none. Must outlive the Solve().
+  /// nullptr: none. One substep only. Outlives the Solve(), whose report it is not part of.
   const Replay* replay = nullptr;
   /// Takes down which thread did what when, on Path::kFast; nullptr: nobody does. Must outlive
   /// every Solve(). No result depends on it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Judges problems in matrix form; the rest of the input is judged in validate.cc.
+// Judges problems in matrix form, and their settings.
 #include <cmath>
 
 #include "cairn/lcp/solver.h"

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
-#include <limits>
 
 #include "cairn/detail/spans.h"
 
@@ -27,8 +25,6 @@ constexpr double kNearTolerance = 2;
 
 /// What looking at a state and keeping a copy costs, in sweeps.
 constexpr double kKeepingSweeps = 1;
-
-double Largest(const Residual& residual) { return std::max(residual.max, residual.max_angular); }
 
 }  // namespace
 

@@ -108,7 +108,7 @@ class BlockCycle {
   /// A step did so much that sweeps alone need not be tried.
   bool IsSure(int island);
   void KeepBetterSteps(int sweeps);
-  /// Which steps put in energy, or impulses of joints that floats cannot hold.
+  /// Which steps put in energy, threw or flung bodies, or left impulses that floats cannot hold.
   void FindHarm();
   /// The sweeps without its step brought an island closer to its solution than those with it.
   bool IsBetterAlone(int island);

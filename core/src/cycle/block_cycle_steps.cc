@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Subspace steps of BlockCycle: where, and whether they are kept.
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -10,8 +9,6 @@
 namespace cairn {
 namespace {
 
-/// Fewer sweeps after a step do not smooth what it leaves behind.
-constexpr int kLeastSweepsAfterStep = 3;
 /// A step that brought the residual down to this share, and phi down, is kept without trying sweeps
 /// alone: that trial costs as much as the sweeps of the step do.
 constexpr double kSureGain = 0.7;
@@ -130,7 +127,7 @@ NoStep BlockCycle::PlanStep(int g, std::span<const int> islands, PlannedSteps* p
 NoStep BlockCycle::Weigh(int g, int i) {
   const StepOdds& odds = steps_.odds(i);
   const Residual& seen = states_[i].seen;
-  const double largest = std::max(seen.max, seen.max_angular);
+  const double largest = Largest(seen);
   const bool near = largest <= kNear * settings_->tolerance;
   // what sweeps have left unsolved for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
@@ -332,11 +329,11 @@ void BlockCycle::FindHarm() {
   if (!guards_) return;
   steps_.FindAfter();
   for (int i : stepped_islands_) {
-    const double error = std::max(before_[i].max, before_[i].max_angular);
-    states_[i].harmful =
-        merits_.of(i).is_worse_than_none() || IsTooMuch(steps_.result(i).joint_speed) ||
-        IsTooViolent(merits_before_.of(i), merits_.of(i), steps_.mass(i), error) ||
-        IsFlung(steps_.speed_before(i), steps_.speed_after(i), error);
+    const double error = Largest(before_[i]);
+    states_[i].harmful = merits_.of(i).is_worse_than_none() ||
+                         IsTooMuch(steps_.result(i).joint_speed) ||
+                         IsTooViolent(merits_before_.of(i), merits_.of(i), steps_.mass(i), error) ||
+                         IsFlung(steps_.before(i), steps_.after(i), steps_.mass(i), error);
   }
 }
 

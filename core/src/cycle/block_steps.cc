@@ -52,8 +52,6 @@ void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, 
   meter_ = meter;
   crew_ = crew;
   asked_ = asked;
-  has_budget_ =
-      settings.budget.kind() != Budget::Kind::kUnlimited || settings.tuning.replay != nullptr;
   if (!asked_) return;
   const Plan& plan = frame->plan();
   memory_of_island_.assign(plan.islands().size(), nullptr);
@@ -143,17 +141,21 @@ void BlockSteps::CountLines() {
   for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
 }
 
-void BlockSteps::RaiseSpeeds(double share, std::vector<double>* speeds) const {
+void BlockSteps::FindMotions(double share, std::vector<IslandMotion>* motions) const {
   const Plan& plan = frame_->plan();
+  motions->assign(plan.islands().size(), {});
   for (int i = 0; i < static_cast<int>(problem_->bodies.size()); ++i) {
     const int island = plan.island_of_body()[i];
     if (island < 0) continue;
     const WhitenedBody& whitened = frame_->bodies()[i];
     const float* const u = frame_->blocks().bodies[plan.slot_of_body()[i]].u;
-    const Eigen::Vector3d change =
+    const Eigen::Vector3d velocity =
+        SeenFreeVelocity(*problem_, whitened, i) +
         whitened.linear.cwiseProduct(share * Eigen::Vector3d(u[0], u[1], u[2]));
-    const double speed = (SeenFreeVelocity(*problem_, whitened, i) + change).norm();
-    (*speeds)[island] = std::max((*speeds)[island], speed);
+    const double square = velocity.squaredNorm(), inv_mass = problem_->bodies[i].inv_mass;
+    IslandMotion& motion = (*motions)[island];
+    motion.speed = std::max(motion.speed, std::sqrt(square));
+    if (inv_mass > 0) motion.energy += 0.5 / inv_mass * square;
   }
 }
 
@@ -165,15 +167,12 @@ void BlockSteps::FindBefore() {
     const double inv_mass = problem_->bodies[i].inv_mass;
     if (island >= 0 && inv_mass > 0) masses_[island] += 1 / inv_mass;
   }
-  speeds_before_.assign(plan.islands().size(), 0);
-  RaiseSpeeds(0, &speeds_before_);
-  RaiseSpeeds(1, &speeds_before_);
+  FindMotions(0, &before_);
+  FindMotions(1, &after_);
+  for (size_t i = 0; i < before_.size(); ++i) before_[i] = LargerOf(before_[i], after_[i]);
 }
 
-void BlockSteps::FindAfter() {
-  speeds_after_.assign(frame_->plan().islands().size(), 0);
-  RaiseSpeeds(1, &speeds_after_);
-}
+void BlockSteps::FindAfter() { FindMotions(1, &after_); }
 
 IslandMemory* BlockSteps::MemoryOf(int island) {
   IslandMemory*& memory = memory_of_island_[island];
@@ -355,8 +354,8 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
 
 void BlockSteps::Judge(int island, bool accepted) {
   if (accepted) {
-    MemoryOf(island)->Accepted(has_budget_ ? kLeastSofteningOfBudget
-                                           : IslandMemory::kLeastSoftening);
+    MemoryOf(island)->Accepted(meter_->limited() ? kLeastSofteningOfBudget
+                                                 : IslandMemory::kLeastSoftening);
   } else {
     MemoryOf(island)->Restored();
   }

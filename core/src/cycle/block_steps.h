@@ -11,6 +11,7 @@
 #include "runtime/crew.h"
 #include "step/block_step.h"
 #include "step/island_memories.h"
+#include "step/merit.h"
 
 namespace cairn {
 
@@ -59,21 +60,20 @@ class BlockSteps {
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// How many factorisations the next step on an island may make.
   void Limit(int island, int factorisations) { limits_[island] = factorisations; }
-  int limit(int island) const { return limits_[island]; }
   /// Takes a step on some islands of a group.
   void Take(int group, std::span<const int> islands);
   /// The time was up before it was done; nothing changed.
   bool given_up(int island) const { return given_up_[island] != 0; }
   /// What came of the last one; where it did not succeed, nothing changed.
   const StepResult& result(int island) const { return islands_[island].result; }
-  /// Finds mass() and speed_before() of every island.
+  /// Finds mass() and before() of every island.
   void FindBefore();
   double mass(int island) const { return masses_[island]; }  ///< of its bodies [kg]
-  /// Of its fastest body, without impulses or with those of then [m/s].
-  double speed_before(int island) const { return speeds_before_[island]; }
-  /// Finds speed_after() of every island.
+  /// The larger of those without impulses and with those of then.
+  const IslandMotion& before(int island) const { return before_[island]; }
+  /// Finds after() of every island.
   void FindAfter();
-  double speed_after(int island) const { return speeds_after_[island]; }
+  const IslandMotion& after(int island) const { return after_[island]; }
   /// What was charged for it: its share of the group's, by rows.
   double work(int island) const { return work_[island]; }
   /// A guard undid something on the island.
@@ -91,8 +91,8 @@ class BlockSteps {
   void ReadStrains();
   void ReadIslands();
   void CountLines();
-  /// Raises them to those of bodies, with so much of what impulses change them by.
-  void RaiseSpeeds(double share, std::vector<double>* speeds) const;
+  /// With so much of what impulses change velocities by.
+  void FindMotions(double share, std::vector<IslandMotion>* motions) const;
   template <class T>
   BlockSystem<T>& SystemOf(int group);
   /// function(system) for each that the islands need.
@@ -117,7 +117,6 @@ class BlockSteps {
   BudgetMeter* meter_ = nullptr;
   Crew* crew_ = nullptr;
   bool asked_ = false;
-  bool has_budget_ = false;
 
   int plan_number_ = -1;               ///< of what follows
   std::vector<int> limits_;            ///< by island: factorisations
@@ -138,7 +137,8 @@ class BlockSteps {
   std::vector<IslandMemory*> memory_of_island_;
   std::vector<IslandStep> islands_, islands_now_;
   std::vector<double> work_;    ///< by island
-  std::vector<double> masses_, speeds_before_, speeds_after_;  ///< likewise
+  std::vector<double> masses_;  ///< likewise
+  std::vector<IslandMotion> before_, after_;
   std::vector<char> given_up_;  ///< likewise
   std::unique_ptr<BlockStep<float>> float_step_;
   std::unique_ptr<BlockStep<double>> double_step_;

@@ -59,9 +59,10 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     double time_step, std::span<Body> bodies) {
   raised_.clear();
   raised_.reserve(memories_.size());
-  if (memories_.empty()) return raised_;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     Body& body = bodies[i];
+    body.strain = 0;
+    if (memories_.empty()) continue;
     Memory* const found = Find(body, i);
     if (found == nullptr || found->inv_mass != body.inv_mass) continue;
     Memory& memory = *found;
@@ -161,10 +162,12 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
       const int k = joint.first_row + i;
       if (joint.is_bounded(i)) continue;
       const JointRow& row = problem.joint_rows[k];
-      arm_a += Sum(row.linear_a) * Sum(row.angular_a);
-      arm_b += Sum(row.linear_b) * Sum(row.angular_b);
-      impulse += std::abs(static_cast<double>(impulses.joint_rows[k])) *
-                 std::max(Sum(row.linear_a), Sum(row.linear_b));
+      const double linear_a = Sum(row.linear_a);
+      const double linear_b = joint.opposite ? linear_a : Sum(row.linear_b);
+      arm_a += linear_a * Sum(row.angular_a);
+      arm_b += linear_b * Sum(row.angular_b);
+      impulse +=
+          std::abs(static_cast<double>(impulses.joint_rows[k])) * std::max(linear_a, linear_b);
     }
     if (joint.body_a != kWorld) pull_[joint.body_a] += impulse * arm_a / 2;
     if (joint.body_b != kWorld) pull_[joint.body_b] += impulse * arm_b / 2;
@@ -180,34 +183,21 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
 
 void GeometricStiffness::AddJoints(double time_step, const ContactProblem& problem,
                                    const Impulses& impulses) {
-  const auto vector = [](const float(&from)[3]) {
-    return Eigen::Vector3d(from[0], from[1], from[2]);
-  };
   for (const Joint& joint : problem.joints) {
     if (!IsPulled(joint.body_a) && !IsPulled(joint.body_b)) continue;
     for (int row = 0; row + 3 <= joint.rows;) {
-      const JointRow* const rows = &problem.joint_rows[joint.first_row + row];
-      Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
-      bool free = true;
-      for (int k = 0; k < 3; ++k) {
-        free = free && !joint.is_bounded(row + k);
-        linear_a.col(k) = vector(rows[k].linear_a);
-        angular_a.col(k) = vector(rows[k].angular_a);
-        linear_b.col(k) = vector(rows[k].linear_b);
-        angular_b.col(k) = vector(rows[k].angular_b);
-      }
-      const Eigen::Matrix3d& known = joint.body_a != kWorld ? linear_a : linear_b;
-      if (!free || !AreAxes(known)) {
+      const RowTriple rows = ReadTriple(joint, &problem.joint_rows[joint.first_row], row);
+      if (rows.bounded || !AreAxes(rows, joint)) {
         ++row;
         continue;
       }
       const float* const x = &impulses.joint_rows[joint.first_row + row];
       const Eigen::Vector3d lambda(x[0], x[1], x[2]);
       if (IsPulled(joint.body_a)) {
-        Add(joint.body_a, ArmOf(linear_a, angular_a), linear_a * lambda, time_step);
+        Add(joint.body_a, ArmOf(rows.linear_a, rows.angular_a), rows.linear_a * lambda, time_step);
       }
       if (IsPulled(joint.body_b)) {
-        Add(joint.body_b, ArmOf(linear_b, angular_b), linear_b * lambda, time_step);
+        Add(joint.body_b, ArmOf(rows.linear_b, rows.angular_b), rows.linear_b * lambda, time_step);
       }
       row += 3;
     }

@@ -122,19 +122,14 @@ void Substeps::FindHeld() {
   for (int j = 0; j < static_cast<int>(whole_.joints.size()); ++j) {
     const Joint& joint = whole_.joints[j];
     for (int row = 0; row + 3 <= joint.rows;) {
-      const JointRow* const rows = &joint_rows_[joint.first_row + row];
-      Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
-      for (int k = 0; k < 3; ++k) {
-        linear_a.col(k) = ToVector(rows[k].linear_a);
-        angular_a.col(k) = ToVector(rows[k].angular_a);
-        linear_b.col(k) = joint.opposite ? Vector3d(-linear_a.col(k)) : ToVector(rows[k].linear_b);
-        angular_b.col(k) = ToVector(rows[k].angular_b);
-      }
-      if (!AreAxes(joint.body_a != kWorld ? linear_a : linear_b)) {
+      const RowTriple rows = ReadTriple(joint, &joint_rows_[joint.first_row], row);
+      // what has bounds is a motor or a limit, and holds no point
+      if (rows.bounded || !AreAxes(rows, joint)) {
         ++row;
         continue;
       }
-      held_.push_back({j, row, ArmOf(linear_a, angular_a), ArmOf(linear_b, angular_b)});
+      held_.push_back(
+          {j, row, ArmOf(rows.linear_a, rows.angular_a), ArmOf(rows.linear_b, rows.angular_b)});
       for (int k = 0; k < 3; ++k) is_held_[joint.first_row + row + k] = 1;
       row += 3;
     }

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "engine/angle.h"
 #include "engine/step_body.h"
@@ -207,7 +206,8 @@ ContactProblem ProblemOf(const StepInput& step, const Contacts& contacts, const 
           .manifolds = contacts.manifolds(),
           .points = contacts.points(),
           .joints = joints.joints(),
-          .joint_rows = joints.rows()};
+          .joint_rows = joints.rows(),
+          .time_step = step.time_step};
 }
 
 Impulses StartOf(Contacts* contacts, Joints* joints) {

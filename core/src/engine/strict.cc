@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "problem/islands.h"
 #include "problem/validate.h"
 
 namespace cairn {
@@ -107,11 +108,7 @@ class Inspector {
   bool InspectRange(std::string_view first_field, int first, int count, size_t size,
                     std::vector<char>* taken);
 
-  bool moves(int body) const {
-    if (body == kWorld) return false;
-    const Body& b = problem_.bodies[body];
-    return b.inv_mass > 0 || !b.inv_inertia.isZero(0);
-  }
+  bool moves(int body) const { return body != kWorld && CanMove(problem_.bodies[body]); }
 
   const ContactProblem& problem_;
   const Impulses& impulses_;

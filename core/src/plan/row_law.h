@@ -15,7 +15,7 @@ struct RowLaw {
 };
 
 /// False if a number is not valid; the parent can only be judged with all rows at hand.
-/// @p omega: Settings::omega of kPsor, or 1.
+/// @p omega: Tuning::omega of kPsor, or 1.
 bool ReadLaw(const ContactProblem& problem, int row, double impulse, double omega, RowLaw* law);
 
 /// The law of a row as a kernel sees it, without the parent.

@@ -9,17 +9,15 @@
 namespace cairn {
 
 /// A problem with the rows of its joints and manifolds written out, in double precision: the
-/// specification of simd/joint_rows and simd/contact_rows, and what is solved where those do not
-/// do.
+/// specification of simd/rows/joint_rows and simd/rows/contact_rows, and what is solved where those
+/// do not do.
 class ContactExpansion {
  public:
   /// The bodies of @p problem are referred to.
   /// @pre the problem is valid, but for its rows
   ContactExpansion(const ContactProblem& problem, const Impulses& start);
 
-  ContactProblem problem() const {
-    return {.bodies = bodies_, .rows = rows_, .motions = motions_};
-  }
+  ContactProblem problem() const { return {.bodies = bodies_, .rows = rows_, .motions = motions_}; }
   std::span<double> impulses() { return impulses_; }
   /// Writes impulses() to where they belong.
   void Write(const Impulses& impulses) const;

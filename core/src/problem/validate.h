@@ -2,10 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 
 #include "cairn/contact_problem.h"
-#include "cairn/settings.h"
 
 namespace cairn {
 

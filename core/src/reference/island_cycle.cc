@@ -17,12 +17,8 @@ namespace {
 constexpr int kBlockRows = 256;
 /// A residual costs about half a sweep.
 constexpr double kMeasureSweeps = 0.5;
-/// Fewer sweeps after a step do not smooth what it leaves behind.
-constexpr int kLeastSweepsAfterStep = 3;
 /// A step that brought the residual down to this share is kept without trying sweeps alone.
 constexpr double kSureGain = 0.1;
-
-double Largest(const Residual& residual) { return std::max(residual.max, residual.max_angular); }
 
 }  // namespace
 
@@ -122,8 +118,7 @@ double IslandCycle::UnitsAfterStep() const {
 }
 
 bool IslandCycle::StepFits(BudgetMeter* meter) const {
-  return meter->Fits(StepCost(island_, settings_, settings_.k_sm, SystemOf(memory_)),
-                     UnitsAfterStep());
+  return meter->Fits(MostStepCost(island_, settings_, memory_), UnitsAfterStep());
 }
 
 bool IslandCycle::StepPays(BudgetMeter* meter) {
@@ -149,9 +144,10 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
   const Merit merit = MeasureMerit(island_, at_.state);
   const bool violent =
       IsTooViolent(MeasureMerit(island_, before.state), merit, island_.mass, Largest(residual_));
-  const double speed_before =
-      std::max(FastestBody(island_, before.state, 0), FastestBody(island_, before.state, 1));
-  const bool flung = IsFlung(speed_before, FastestBody(island_, at_.state, 1), Largest(residual_));
+  const IslandMotion motion_before =
+      LargerOf(MeasureMotion(island_, before.state, 0), MeasureMotion(island_, before.state, 1));
+  const bool flung = IsFlung(motion_before, MeasureMotion(island_, at_.state, 1), island_.mass,
+                             Largest(residual_));
   const bool worse = merit.is_worse_than_none();
   const bool sound = !guards_ || !(worse || violent || flung || IsTooMuch(result.joint_speed));
   if (!sound) {

@@ -7,19 +7,13 @@
 
 namespace cairn {
 
-Packer::Packer(const ContactProblem& problem, const Settings& settings,
-               std::span<const WhitenedBody> bodies)
+Packer::Packer(const ContactProblem& problem, const Settings& settings)
     : problem_(problem),
       omega_(OmegaOf(settings)),
-      bodies_(bodies),
+      bodies_(problem.bodies.size()),
       local_(problem.bodies.size(), 0),
-      local_row_(problem.rows.size(), kNoRow) {}
-
-Packer::Packer(const ContactProblem& problem, const Settings& settings)
-    : Packer(problem, settings, {}) {
-  own_bodies_.resize(problem.bodies.size());
-  for (size_t i = 0; i < own_bodies_.size(); ++i) Whiten(problem.bodies[i], &own_bodies_[i]);
-  bodies_ = own_bodies_;
+      local_row_(problem.rows.size(), kNoRow) {
+  for (size_t i = 0; i < bodies_.size(); ++i) Whiten(problem.bodies[i], &bodies_[i]);
 }
 
 Vector6 Packer::WhitenRow(int body, const Eigen::Vector3d& linear,
@@ -64,10 +58,11 @@ PackedIsland Packer::Pack(const Island& island) const {
   for (int i = 0; i < packed.bodies; ++i) {
     local_[island.bodies[i]] = i + 1;
     const double inv_mass = problem_.bodies[island.bodies[i]].inv_mass;
-    if (inv_mass > 0) packed.mass += 1 / inv_mass;
+    const double mass = inv_mass > 0 ? 1 / inv_mass : 0;
+    packed.mass += mass;
     const WhitenedBody& whitened = bodies_[island.bodies[i]];
     packed.motions.push_back(
-        {SeenFreeVelocity(problem_, whitened, island.bodies[i]), whitened.linear});
+        {SeenFreeVelocity(problem_, whitened, island.bodies[i]), whitened.linear, mass});
   }
   for (int i = 0; i < static_cast<int>(island.rows.size()); ++i) local_row_[island.rows[i]] = i;
 

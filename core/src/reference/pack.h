@@ -35,9 +35,10 @@ struct PackedIsland {
   std::vector<PackedRow> rows;
   int bodies = 0;   ///< movable ones
   double mass = 0;  ///< of them [kg]
-  /// Of each: its velocity without impulses as rows see it, and what u changes it by.
+  /// Of each: what u changes it by, and how it moves without impulses as rows see it.
   struct Motion {
     Eigen::Vector3d free, whitening;
+    double mass = 0;
   };
   std::vector<Motion> motions = {};
 };
@@ -79,17 +80,6 @@ inline double RelativeVelocity(const PackedRow& row, const std::vector<Vector6>&
   return Dot(row.g_a, u[row.a]) + Dot(row.g_b, u[row.b]);
 }
 
-/// The speed of the fastest body, with so much of the velocity changes [m/s].
-inline double FastestBody(const PackedIsland& island, const IslandState& state, double share) {
-  double fastest = 0;
-  for (size_t i = 0; i < island.motions.size(); ++i) {
-    const auto u = Eigen::Map<const Eigen::Vector3d>(state.u[i + 1].data());
-    const auto& [free, whitening] = island.motions[i];
-    fastest = std::max(fastest, (free + whitening.cwiseProduct(share * u)).norm());
-  }
-  return fastest;
-}
-
 /// w = G u + E x - target of one row.
 inline double Slack(const PackedRow& row, const std::vector<Vector6>& u, double x) {
   return RelativeVelocity(row, u) + row.compliance * x - row.target;
@@ -98,10 +88,7 @@ inline double Slack(const PackedRow& row, const std::vector<Vector6>& u, double 
 /// Between the caller's bodies and rows and whitened islands. One copy in, one copy out.
 class Packer {
  public:
-  /// @pre the problem passed Validate(). @p bodies: whitened; they must outlive the packer.
-  Packer(const ContactProblem& problem, const Settings& settings,
-         std::span<const WhitenedBody> bodies);
-  /// Whitens the bodies itself.
+  /// @pre the problem passed Validate()
   Packer(const ContactProblem& problem, const Settings& settings);
   Packer(const Packer&) = delete;
   Packer& operator=(const Packer&) = delete;
@@ -128,8 +115,7 @@ class Packer {
 
   ContactProblem problem_;
   double omega_;
-  std::vector<WhitenedBody> own_bodies_;
-  std::span<const WhitenedBody> bodies_;
+  std::vector<WhitenedBody> bodies_;
   mutable std::vector<int> local_;  ///< scratch: problem row or body -> island row or body
   mutable std::vector<int> local_row_;
 };

@@ -78,11 +78,11 @@ void Refine(const PackedIsland& island, const ActiveSet& set, const std::vector<
 /// what they contradict each other. The solve after which a row leaves its bounds is taken back.
 void RefineWhileSetHolds(const PackedIsland& island, const StepSettings& settings,
                          const std::vector<double>& weights, const BodySystem& system,
-                         ActiveSet* set, IslandState* state) {
+                         const ActiveSet& set, IslandState* state) {
   for (int k = 1; k < settings.refinements; ++k) {
     const std::vector<double> before = state->x;
-    ActiveSet shrunk = *set;
-    Refine(island, *set, weights, system, state);
+    ActiveSet shrunk = set;
+    Refine(island, set, weights, system, state);
     if (RemoveViolated(island, *state, &shrunk) == 0) continue;
     state->x = before;
     return;
@@ -178,7 +178,7 @@ StepResult TakeStep(const PackedIsland& island, const StepSettings& settings, Bo
     state->x = start.x;
     Refine(island, set, weights, *system, state);
     if (RemoveViolated(island, *state, &set) > 0) continue;
-    RefineWhileSetHolds(island, settings, weights, *system, &set, state);
+    RefineWhileSetHolds(island, settings, weights, *system, set, state);
     break;
   }
 

@@ -32,14 +32,18 @@ double StepCost(const PackedIsland& island, const Settings& settings, int factor
   return kPrepareRow * rows + factorisations * (factorise + settings.tuning.refinements * solve);
 }
 
+double MostStepCost(const PackedIsland& island, const Settings& settings, IslandMemory* memory) {
+  const int factorisations = settings.k_sm + (memory->condenses_joints() ? 1 : 0);
+  return StepCost(island, settings, factorisations, SystemOf(memory));
+}
+
 bool StepPays(const PackedIsland& island, const Settings& settings, const StepBudget& budget,
               IslandMemory* memory) {
   const double rows = static_cast<double>(island.rows.size());
   if (!budget.meter->Fits((kPrepareRow + kAnalyseRow) * rows, budget.sweep_units)) return false;
   BodySystem& system = SystemOf(memory);
   system.Prepare(island);
-  const int factorisations = settings.k_sm + (memory->condenses_joints() ? 1 : 0);
-  const double cost = StepCost(island, settings, factorisations, system);
+  const double cost = MostStepCost(island, settings, memory);
   const bool too_dear = cost > kMostSweeps * rows && settings.step_policy != StepPolicy::kAlways;
   if (!too_dear && budget.meter->Fits(cost, budget.sweep_units)) return true;
   memory->Postpone();

@@ -23,6 +23,9 @@ BodySystem& SystemOf(IslandMemory* memory);
 bool StepPays(const PackedIsland& island, const Settings& settings, const StepBudget& budget,
               IslandMemory* memory);
 
+/// What the next step costs at most. @pre StepPays()
+double MostStepCost(const PackedIsland& island, const Settings& settings, IslandMemory* memory);
+
 /// What a step costs that made so many factorisations, in relaxations of rows in double precision.
 /// @pre StepPays()
 double StepCost(const PackedIsland& island, const Settings& settings, int factorisations,

@@ -11,16 +11,16 @@ namespace {
 /// Safety on the predicted time of a step, which depends on the set that it finds.
 constexpr double kStepMargin = 1.25;
 /// Weight of the newest measurement in a price.
-constexpr double kPriceMemory = 0.05;
+constexpr double kPriceWeight = 0.05;
 /// The same for steps, of which there are few.
-constexpr double kStepMemory = 0.2;
+constexpr double kStepWeight = 0.2;
 /// What a step that is tried to learn its price, and cannot be given up, may take beyond the budget
 /// [ns], as far as known; and no more than the budget once again.
 constexpr double kMostExploration = 1e5;
 /// What comes after the iteration, and what cannot be given up, is overrun if too little is set
 /// aside for it: such a price rises at once, up to so many times itself, and falls slowly. What was
 /// interrupted does not say how far.
-constexpr double kMostRise = 2, kInterruptedRise = 1.25, kFinishMemory = 0.02;
+constexpr double kMostRise = 2, kInterruptedRise = 1.25, kFinishWeight = 0.02;
 /// No work is cheaper than that, whatever a clock says that stands still [ns].
 constexpr double kLeastPrice = 0.05;
 /// Frames from one trial to the next, at first and at most.
@@ -93,9 +93,9 @@ void BudgetMeter::Charge(WorkKind kind, double units) {
   if (units > 0) {
     const double ns = ToDouble(now - last_) / units;
     if (kind == WorkKind::kSweep) {
-      Learn(ns, kPriceMemory, &prices_->sweep_ns);
+      Learn(ns, kPriceWeight, &prices_->sweep_ns);
     } else if (kind == WorkKind::kAnalysis) {
-      LearnMost(ns, kStepMemory, &prices_->analysis_ns);
+      LearnMost(ns, kStepWeight, &prices_->analysis_ns);
     } else if (kind == WorkKind::kStep) {
       steps_predicted_ += units * prices_->step_ns;
       steps_time_ += now - last_;
@@ -125,7 +125,7 @@ void BudgetMeter::ChargeStep(double units, bool given_up) {
 void BudgetMeter::LearnStep(double ns) {
   // what was tried first was cold, what is tried for once says more than what is long known
   const bool news = explores_ || !prices_->step_known;
-  Learn(ns, news ? 1 : kStepMemory, &prices_->step_ns);
+  Learn(ns, news ? 1 : kStepWeight, &prices_->step_ns);
   prices_->step_known = stepped_ = true;
 }
 
@@ -139,7 +139,7 @@ void BudgetMeter::ChargeFinish() {
   }
   if (budget_.kind() != Budget::Kind::kTime || rows_ <= 0) return;
   const double ns = ToDouble(Now() - last_) / rows_;
-  LearnMost(ns, kFinishMemory, &prices_->finish_ns);
+  LearnMost(ns, kFinishWeight, &prices_->finish_ns);
 }
 
 double BudgetMeter::TimeLeft(Nanoseconds now) const {

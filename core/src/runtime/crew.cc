@@ -7,13 +7,12 @@
 #include <bit>
 #include <cstdint>
 #include <thread>
-#include <utility>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
-#include "runtime/executor_tbb.h"
+#include "runtime/own_threads.h"
 
 namespace cairn {
 namespace {
@@ -245,7 +244,7 @@ struct Crew::Impl {
   int asked;    ///< threads that the settings ask for
   int threads;  ///< that there can be
   Executor* given;
-  std::unique_ptr<Executor> own;
+  std::unique_ptr<Executor> own;  ///< made when helpers are called first: small problems need none
   Board* board = new Board;
   SpanRecorder* recorder = nullptr;
 };
@@ -254,8 +253,7 @@ Crew::Crew(int threads, Executor* executor) : impl_(std::make_unique<Impl>()) {
   impl_->asked = impl_->threads = threads;
   impl_->given = executor;
   if (threads == 1 || executor != nullptr) return;
-  impl_->threads = std::min(threads, MostTbbThreads());
-  if (impl_->threads > 1) impl_->own = MakeTbbExecutor(impl_->threads);
+  impl_->threads = std::min(threads, MostOwnThreads());
 }
 Crew::~Crew() = default;
 Crew::Crew(Crew&&) noexcept = default;
@@ -275,9 +273,12 @@ SpanRecorder* Crew::recorder() const { return impl_->recorder; }
 void Crew::Call(int most) {
   const int threads = std::min(most, impl_->threads);
   if (threads <= 1) return;
+  if (impl_->given == nullptr && impl_->own == nullptr) {
+    impl_->own = MakeOwnExecutor(impl_->threads);
+  }
+  Executor* const executor = impl_->given != nullptr ? impl_->given : impl_->own.get();
   Board* const board = impl_->board;
   board->Open(threads - 1);
-  Executor* const executor = impl_->given != nullptr ? impl_->given : impl_->own.get();
   const auto task = [](void* what) { static_cast<Board*>(what)->RunTask(); };
   try {
     // those that return at once are not asked for again

@@ -34,7 +34,7 @@ class StagedWork {
 class Crew {
  public:
   /// @p threads: the caller included, in [1, 1024]; one starts no others. Without an executor
-  /// oneTBB provides the helpers, as many as it has.
+  /// oneTBB, or std::thread, provides the helpers, as many as there are.
   explicit Crew(int threads, Executor* executor = nullptr);
   ~Crew();
   Crew(Crew&&) noexcept;

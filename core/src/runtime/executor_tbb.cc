@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "runtime/executor_tbb.h"
+#include "runtime/own_threads.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
@@ -28,12 +28,12 @@ class TbbExecutor final : public Executor {
 
 }  // namespace
 
-int MostTbbThreads() {
+int MostOwnThreads() {
   return static_cast<int>(
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-std::unique_ptr<Executor> MakeTbbExecutor(int threads) {
+std::unique_ptr<Executor> MakeOwnExecutor(int threads) {
   return std::make_unique<TbbExecutor>(threads);
 }
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/executor_tbb.h"
+#include "runtime/own_threads.h"
 
 namespace cairn {
 namespace {
@@ -63,9 +63,9 @@ class ThreadExecutor final : public Executor {
 
 }  // namespace
 
-int MostTbbThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int MostOwnThreads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-std::unique_ptr<Executor> MakeTbbExecutor(int threads) {
+std::unique_ptr<Executor> MakeOwnExecutor(int threads) {
   return std::make_unique<ThreadExecutor>(threads);
 }
 

@@ -2,7 +2,6 @@
 #include "step/island_memory.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace cairn {
 namespace {
@@ -23,7 +22,7 @@ constexpr double kTooMuch = 1e4;
 /// Where impulses stay below this share of the former for some steps, joints agree.
 constexpr double kCalm = 0.1;
 /// Steps after which it is asked again whether joints are redundant.
-constexpr int kLeastPause = 60, kMostPause = 3840;
+constexpr int kMostPause = 3840;
 /// What joints are softened to at most where they are redundant.
 constexpr double kMostJointProximal = 1e-3;
 constexpr int kMostJointLevel = 4;
@@ -87,10 +86,10 @@ void IslandMemory::SawJoints(const StepResult& result) {
   calm_steps_ = small ? calm_steps_ + 1 : 0;
   if (!(result.joint_speed <= kTooMuch)) {
     joint_level_ = std::min(kMostJointLevel, joint_level_ + 1);
-  } else if (joint_level_ > 1 && calm_steps_ > kLeastPause) {
+  } else if (joint_level_ > 1 && calm_steps_ > kLeastJointPause) {
     --joint_level_;
     calm_steps_ = 0;
-  } else if ((!redundant && !small) || calm_steps_ > kLeastPause) {
+  } else if ((!redundant && !small) || calm_steps_ > kLeastJointPause) {
     // these joints carry much, or agree by now: asked again later, and ever later
     joint_level_ = calm_steps_ = 0;
     joint_pause_ = joint_pause_next_;

@@ -25,7 +25,7 @@ class IslandMemory {
   /// How far the proximal term falls where steps succeed, relative to what is set: with ten sweeps
   /// around every step, what is smaller excites contacts that come and go.
   static constexpr double kLeastSoftening = 1.0 / 4;
-  /// @param least  factor on Settings::proximal that successes bring it down to, > 0
+  /// @param least  factor on Tuning::proximal that successes bring it down to, > 0
   void Accepted(double least = kLeastSoftening);
   void Restored();
   /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
@@ -51,11 +51,13 @@ class IslandMemory {
   BlockSystem<T>& block_system(simd::Target target);
 
  private:
+  static constexpr int kLeastJointPause = 60;
+
   std::shared_ptr<BodySystem> body_system_;
   std::unique_ptr<BlockSystem<float>> float_system_;
   std::unique_ptr<BlockSystem<double>> double_system_;
   StepOdds odds_;
-  double softening_ = 1;  ///< factor on Settings::proximal
+  double softening_ = 1;  ///< factor on Tuning::proximal
   double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
   double price_of_row_ = 0;
   int strikes_ = 0;                   ///< rejections in a row
@@ -63,7 +65,7 @@ class IslandMemory {
   int guards_ = 0, guard_pause_ = 0;  ///< how often of late, and likewise after one
   /// How much is done about redundant joints, steps in a row without need for it, and steps until
   /// they are looked at again.
-  int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = 60;
+  int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = kLeastJointPause;
 };
 
 }  // namespace cairn

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "runtime/in_parts.h"
+#include "sweep/sum_scale.h"
 
 namespace cairn {
 namespace {
@@ -17,11 +18,6 @@ constexpr double kRounding = 1e-3;
 
 /// Sums are of whole numbers of this many bits, so that their order does not matter.
 constexpr int kSumBits = 36;
-
-double ScaleOf(double largest) {
-  const bool scalable = largest > 0 && std::isfinite(largest);
-  return scalable ? std::ldexp(1.0, kSumBits - 1 - std::ilogb(largest)) : 1;
-}
 
 /// Where 0 is outside the bounds of a row, the bit of its lane.
 std::uint32_t WithoutZero(const simd::RowShape& row, const simd::Line* bounds, int lanes) {
@@ -144,7 +140,7 @@ void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
 
 void IslandMerits::AddWhole(const simd::LaneKernels& kernels, const Group& group, int island) {
   const auto sum = [&](const double* numbers, int count) {
-    const double scale = ScaleOf(kernels.find_most(numbers, count));
+    const double scale = SumScale(kernels.find_most(numbers, count), kSumBits);
     return kernels.add_rounded(numbers, count, scale) / scale;
   };
   const int lanes = kLanes * group.blocks;
@@ -176,7 +172,8 @@ void IslandMerits::AddShared(const Plan& plan, const Group& group) {
     most.gain = std::max(most.gain, std::abs(gain));
     most.square = std::max(most.square, square);
   });
-  for (int i : islands) scales_[i] = {ScaleOf(scales_[i].gain), ScaleOf(scales_[i].square)};
+  for (int i : islands)
+    scales_[i] = {SumScale(scales_[i].gain, kSumBits), SumScale(scales_[i].square, kSumBits)};
   for_parts([this](int island, double gain, double square) {
     merits_[island].gain += simd::Rounded(gain * scales_[island].gain);
     merits_[island].square += simd::Rounded(square * scales_[island].square);

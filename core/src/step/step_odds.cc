@@ -17,8 +17,10 @@ constexpr double kFade = 0.01;
 constexpr double kLater = 0.5;
 /// Frames after which the power of sweeps is measured again, in one without steps if need be.
 constexpr int kMeasureAgain = 64;
-/// By how much more than five sweeps a step has to gain: ten sweeps gain less than twice as much,
-/// twenty less than four times. Steps go on a while longer than they begin.
+/// How many times what the k_gs sweeps in its place gain a step has to gain. In its time an island
+/// could make some three times as many sweeps, which gain less than three times as much;
+/// kPaysForMore where sweeps would go on up to twice the limit. Steps that pay go on a while
+/// longer, down to kGoesOn of that.
 constexpr double kPays = 3, kPaysForMore = 4, kGoesOn = 0.65;
 /// Trials in a row that steps have to fail where, in the last one that they passed, they gained
 /// more than so many times what sweeps do; elsewhere it is one.

@@ -36,7 +36,7 @@ class StepOdds {
   bool stepped_most(int bodies) const {
     return 4 * static_cast<std::int64_t>(bodies) <= 5 * static_cast<std::int64_t>(stepped_bodies_);
   }
-  /// That is not known, or was not looked at for a while.
+  /// Whether a step pays is not known, or was not looked at for a while.
   bool wants_trial() const { return trial_age_ >= trial_pause_; }
   /// The last time that both were tried, sweeps came nowhere near: one step is worth its price.
   bool carries() const { return carries_; }

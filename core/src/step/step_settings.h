@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
+#include "cairn/report_details.h"
+
 namespace cairn {
 
+/// Fewer sweeps after a step do not smooth what it leaves behind.
+inline constexpr int kLeastSweepsAfterStep = 3;
+
+/// Of all rows, in [m/s] or [rad/s].
+inline double Largest(const Residual& residual) {
+  return std::max(residual.max, residual.max_angular);
+}
+
 struct StepSettings {
-  double proximal;         ///< Settings::proximal, as adapted to the island
+  double proximal;         ///< Tuning::proximal, as adapted to the island
   double proximal_joints;  ///< Settings::proximal_joints
   int factorisations;      ///< at most, >= 1
   int refinements;         ///< solves with each factor, >= 1

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "runtime/in_parts.h"
+#include "sweep/sum_scale.h"
 
 namespace cairn {
 namespace {
@@ -18,12 +19,6 @@ constexpr SpanLabel kErrors{SpanKind::kMeasure, 0, -1};
 /// Energies are summed as whole numbers of this many bits, of which doubles hold the sum of eight
 /// million exactly: in whatever order lanes come, an island has the same sum.
 constexpr int kEnergyBits = 30;
-
-/// Brings the largest number of a sum to that many bits.
-double ScaleOf(double largest) {
-  const bool scalable = largest > 0 && std::isfinite(largest);
-  return scalable ? std::ldexp(1.0, kEnergyBits - 1 - std::ilogb(largest)) : 1;
-}
 
 }  // namespace
 
@@ -263,7 +258,7 @@ Residual BlockSweeps::ErrorByAll(const Group& group) const {
     }
     return static_cast<double>(most);
   };
-  const double scale = ScaleOf(largest_of(&simd::BlockError::energy));
+  const double scale = SumScale(largest_of(&simd::BlockError::energy), kEnergyBits);
   std::array<std::array<double, simd::kLanes>, kParts> sums = {};
   for_parts(
       [&](int part, const simd::PairBlock* blocks, const simd::BlockError* errors, int count) {
@@ -293,7 +288,7 @@ void BlockSweeps::ErrorsOfGroup(const Group& group, std::span<Residual> residual
     residual.energy = std::max<double>(residual.energy, error.energy.lane[lane]);
   });
   for (int island : islands) {
-    scales[island] = ScaleOf(residuals[island].energy);
+    scales[island] = SumScale(residuals[island].energy, kEnergyBits);
     residuals[island].energy = 0;
   }
   ForLanes(group, [&](const simd::BlockError& error, int block, int lane) {
@@ -324,7 +319,7 @@ Residual BlockSweeps::ErrorOfGroup(const Group& group) const {
   const auto largest_of = [](const simd::Line& line) {
     return static_cast<double>(*std::max_element(line.lane, line.lane + simd::kLanes));
   };
-  const double scale = ScaleOf(largest_of(largest.energy));
+  const double scale = SumScale(largest_of(largest.energy), kEnergyBits);
   double sums[simd::kLanes] = {};
   kernels.add_energies(blocks, errors, group.blocks, scale, sums);
   const double whole = std::accumulate(sums, sums + simd::kLanes, 0.0);

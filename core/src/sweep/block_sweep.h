@@ -2,7 +2,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cairn/settings.h"
 #include "pack/block_frame.h"
@@ -18,7 +17,7 @@ struct GroupSweeps {
 };
 
 /// Sweeps over the groups that are active, by whoever of the crew is there. Between stages the
-/// budget is looked at: at most 8192 rows.
+/// budget is looked at: 8192 rows, and the rest of a unit or small group.
 class BlockSweeps {
  public:
   /// What a measurement costs, in sweeps.

@@ -50,6 +50,11 @@ TEST(Joints, BallKeepsItsPointAndLetsItTurn) {
   EXPECT_GT(world.things[0].velocity.angular.norm(), 1);
 }
 
+TEST(Joints, MakeAProblemThatKnowsHowLongItsStepIs) {
+  const StepInput step{.time_step = 0.01};
+  EXPECT_EQ(ProblemOf(step, Contacts(), Joints()).time_step, 0.01);
+}
+
 TEST(Joints, TakeBackTheirShareOfAGapInAStep) {
   SmallWorld world;
   world.gravity = 0;

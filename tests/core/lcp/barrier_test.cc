@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <vector>
 
-#include "runtime/executor_tbb.h"
+#include "runtime/own_threads.h"
 #include "tests/core/support/lcp_problems.h"
 
 namespace cairn::lcp {

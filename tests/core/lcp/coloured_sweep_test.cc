@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/lcp/src/methods/matrix_sweep.h"
-#include "runtime/executor_tbb.h"
+#include "runtime/own_threads.h"
 #include "tests/core/support/lcp_problems.h"
 
 namespace cairn::lcp {

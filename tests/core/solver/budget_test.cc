@@ -260,7 +260,7 @@ TEST(Budget, OfTimeSaysWhatStepsTookAndWereToTake) {
   EXPECT_GT(report.factorisations, 0);
   EXPECT_GT(report.step_predicted, nanoseconds(0));
   EXPECT_GT(report.step_time, nanoseconds(0));
-  EXPECT_LT(report.step_time, report.elapsed);
+  EXPECT_LT(report.step_time, clock.looks() * std::chrono::microseconds(1));
 
   for (const Settings& without : {Within(test::PlainSweeps(20), day), test::AlwaysSteps(20)}) {
     const Report none = test::Solve(without, scene).report;
@@ -318,7 +318,6 @@ TEST(Budget, OfTimeTriesAStepThatMayFitToLearnWhatItTakes) {
 // a busy machine: a whole solve takes hours.
 TEST(Budget, EndsAProblemOfAMillionRows) {
   Scene scene = MillionRows();
-  const auto start = std::chrono::steady_clock::now();
   const Report work =
       test::Solve(Within({.tuning = {.min_sweeps = 0}}, Budget::Work(1000)), scene).report;
   EXPECT_TRUE(work.ok());
@@ -332,7 +331,6 @@ TEST(Budget, EndsAProblemOfAMillionRows) {
   const Report refused = test::Solve(Settings{}, scene).report;
   EXPECT_EQ(refused.status, Status::kBadParent);
   EXPECT_EQ(refused.bad_row, 999'999);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
 }  // namespace

@@ -195,6 +195,21 @@ TEST(Substeps, GiveMotorsNoMoreThanTheyHaveInAStep) {
   EXPECT_FLOAT_EQ(rod.impulses[2], 0.01f);
 }
 
+TEST(Substeps, TakeThreeMotorsForNoPointThatIsHeld) {
+  // the end of the rod moves at what they ask for, along the directions of the step
+  Rod rod(Vector3d(0, 0, 12));
+  rod.joint.bounded = 7;
+  const Vector3d wanted(1, 2, 0);
+  for (int k = 0; k < 3; ++k) {
+    rod.rows[k].lo = -100;
+    rod.rows[k].hi = 100;
+    rod.rows[k].target = static_cast<float>(wanted[k]);
+  }
+  ASSERT_TRUE(rod.Solve(InParts(4)).ok());
+  const Vector3d end = rod.velocity.linear + rod.velocity.angular.cross(rod.arm);
+  EXPECT_LT((end - wanted).norm(), 1e-3);
+}
+
 TEST(Substeps, StayWithinABudgetOfWork) {
   Settings settings = InParts(4);
   settings.k_sm = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -204,6 +206,65 @@ TEST(Stiffness, LearnsNothingFromWhatWasRefused) {
   Report other;  // of another problem: it names no islands
   stiffness.Learn(kStep, scene.problem(), {.rows = x}, other);
   EXPECT_EQ(Raised(scene, &stiffness)[0].inv_inertia, scene.bodies[0].inv_inertia);
+}
+
+/// A link that hangs from the world, and a load that hangs from it by a joint whose second body is
+/// the link.
+struct LoadedLink {
+  std::vector<Body> bodies = {test::Box(1, {0.1, 0.1, 1}), test::Box(1000, {1, 1, 1})};
+  std::vector<Joint> joints = {{.body_a = 0, .rows = 3},
+                               {.body_a = 1, .body_b = 0, .first_row = 3, .rows = 3}};
+  std::vector<JointRow> rows = std::vector<JointRow>(6);
+
+  LoadedLink() {
+    const Eigen::Vector3d up(0, 0, 0.5);
+    const auto put = [](const Eigen::Vector3d& from, float* to) {
+      for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+    };
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+      put(axis, rows[k].linear_a);
+      put(up.cross(axis), rows[k].angular_a);
+      put(axis, rows[3 + k].linear_a);
+      put(up.cross(axis), rows[3 + k].angular_a);
+      put(-axis, rows[3 + k].linear_b);
+      put(up.cross(axis), rows[3 + k].angular_b);
+    }
+    for (Body& body : bodies) body.impulse = {0, 0, -test::kGravityStep / body.inv_mass};
+  }
+
+  /// Of the link, after a step.
+  Eigen::Matrix3d RaisedInverse() const {
+    const ContactProblem problem{.bodies = bodies, .joints = joints, .joint_rows = rows};
+    std::vector<float> impulses(6);
+    std::vector<Velocity> velocities(2);
+    Solver solver(test::AlwaysSteps(30));
+    const Report report = solver.Solve(problem, {.joint_rows = impulses}, velocities);
+    EXPECT_TRUE(report.ok()) << Describe(report);
+    GeometricStiffness stiffness;
+    stiffness.Learn(kStep, problem, {.joint_rows = impulses}, report);
+    std::vector<Body> raised = bodies;
+    stiffness.RaiseInertia(kStep, raised);
+    return raised[0].inv_inertia;
+  }
+};
+
+TEST(Stiffness, DoesNotReadWhatOppositeRowsDoNotSay) {
+  LoadedLink link;
+  const Eigen::Matrix3d said = link.RaisedInverse();
+  ASSERT_LT(said(0, 0), link.bodies[0].inv_inertia(0, 0) / 2) << "not a hard case";
+  link.joints[1].opposite = true;
+  EXPECT_EQ(link.RaisedInverse(), said);
+  for (int k = 3; k < 6; ++k) std::fill_n(link.rows[k].linear_b, 3, 0.0f);
+  EXPECT_EQ(link.RaisedInverse(), said);
+}
+
+TEST(Stiffness, ForgetsTheStrainOfWhatNothingPulls) {
+  GeometricStiffness stiffness;
+  std::vector<Body> bodies = test::HangingChain(3, 1).bodies;
+  bodies[1].strain = 17;
+  stiffness.RaiseInertia(kStep, bodies);
+  EXPECT_EQ(bodies[1].strain, 0);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct SubstepTimes {
 ///
 /// Without a budget (the default) btContactSolverInfo::m_numIterations says how hard to try. Each
 /// island makes that many accelerated sweeps, and a subspace step among them where it does more
-/// than sweeps in its place would and costs no more than all else about the island
+/// than sweeps in its place would and costs at most 1.25 times all else about the island
 /// (StepPolicy::kWeighed, in place of the default kMeasured). Islands without a step go on for up
 /// to twice as many sweeps, as long as all of it is predicted to stay below two thirds of what
 /// Bullet's iterations take. All of that is counted, never timed. A Budget::Time is for the whole
@@ -58,8 +58,8 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
   const Report& report() const;
   SubstepTimes times() const;
-  /// Whether Bullet did what Cairn was asked to do: a setting is out of its range, or a joint of a
-  /// type that Bullet does not ship, or Solver::Solve() refused it or broke down.
+  /// Left to Mode::kReference, or from there to Bullet's iteration, where report() is not ok(): a
+  /// setting out of its range, a joint that Bullet does not ship, a Solve() refused or broken down.
   bool fell_back() const;
   /// What report() says is wrong, for people: "threads is 0, must be 1 to 1024". Empty if nothing.
   std::string complaint() const;

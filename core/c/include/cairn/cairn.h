@@ -175,7 +175,7 @@ typedef struct CairnSettings {
   int64_t budget;    /* nanoseconds, or units of work: 1 = 1 row relaxed */
   int32_t minSweeps; /* even if the budget is spent; -1: by the budget */
   int32_t threads;   /* the caller's included; results do not depend on them */
-  CairnJobs jobs;    /* submit NULL: oneTBB */
+  CairnJobs jobs;    /* submit NULL: oneTBB, if built with it, or threads */
 } CairnSettings;
 
 typedef enum CairnStop {
@@ -258,7 +258,7 @@ CAIRN_API CairnStatus cairnSetSettings(CairnSolver* solver, const CairnSettings*
 CAIRN_API void cairnReset(CairnSolver* solver);
 
 /* Solves one step. report may be NULL. A problem no larger than an earlier one is solved without
-   allocating, subspace steps apart. */
+   allocating on CAIRN_PATH_FAST, subspace steps apart. */
 CAIRN_API CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
                                  const CairnSolution* solution, CairnReport* report);
 

@@ -44,7 +44,7 @@ struct Span {
   int units = 0;
 };
 
-/// Takes down what the threads of a Solve() did when (Settings::spans): for timelines. The results
+/// Takes down what the threads of a Solve() did when (Tuning::spans): for timelines. The results
 /// of a Solve() are the same with it; it reads the clock twice for each unit of work that a thread
 /// claims.
 ///

@@ -38,7 +38,8 @@ class GeometricStiffness {
   };
 
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
-  /// Body::inv_inertia. Velocities are left to the caller, see Raised; valid until the next call.
+  /// Body::inv_inertia, and writes Body::strain of all. Velocities are left to the caller, see
+  /// Raised; valid until the next call.
   std::span<const Raised> RaiseInertia(double time_step, std::span<Body> bodies);
   /// The same, and damps Body::velocity.
   void Apply(double time_step, std::span<Body> bodies);

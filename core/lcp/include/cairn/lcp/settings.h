@@ -44,8 +44,9 @@ struct Settings {
   int min_sweeps = 1;  ///< Made even if the budget is spent before them, >= 0.
   /// That may work on one Solve(), the caller included, in [1, 1024]; used by coloured sweeps.
   int threads = 1;
-  Executor* executor = nullptr;  ///< Of the other threads; nullptr: oneTBB. Must outlive Solve().
-  double omega = 1;              ///< Over-relaxation of kPsor, in (0, 2). 1 is Gauss-Seidel.
+  Executor* executor =
+      nullptr;       ///< Of the other threads; nullptr: as in Settings. Must outlive Solve().
+  double omega = 1;  ///< Over-relaxation of kPsor, in (0, 2). 1 is Gauss-Seidel.
   /// Of kPgsSm: a reduced solve after every k_gs sweeps, even where sweeps alone are predicted to
   /// get there for less.
   bool always_solve = false;
