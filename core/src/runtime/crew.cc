@@ -64,7 +64,8 @@ class Board {
   /// A task is about to be submitted, by a helper that was counted.
   void AddTask() {
     owners_.fetch_add(1, std::memory_order_relaxed);
-    tasks_.fetch_add(1, std::memory_order_relaxed);
+    // whoever takes it sees this board as it was made, whatever the executor says to its threads
+    tasks_.fetch_add(1, std::memory_order_release);
   }
   /// What the executor runs. Once too often, while there is a crew, does nothing.
   void RunTask() {
