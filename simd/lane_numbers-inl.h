@@ -108,32 +108,36 @@ inline void AddEnergies(const PairBlock* blocks, const BlockError* errors, int c
 
 /// Of the first @p lanes lanes.
 template <int lanes>
-HWY_INLINE void FindGainsOf(const PairBlock& block, const Line* lines, const Line* x,
-                            LaneGains* gains) {
-  double gain[lanes] = {}, square[lanes] = {};
+HWY_INLINE bool FindGainsOf(const PairBlock& block, const Line* lines, const Line* x, double* gain,
+                            double* square) {
+  double gains[lanes] = {}, squares[lanes] = {};
+  bool soft = false;
   const Line* row = lines + PairLines(block.form);
   for (int i = 0; i < block.row_count; ++i) {
     const Line& target = row[JacobianLines(block.form)];
     for (int l = 0; l < lanes; ++l) {
-      gain[l] += static_cast<double>(target.lane[l]) * static_cast<double>(x[i].lane[l]);
+      gains[l] += static_cast<double>(target.lane[l]) * static_cast<double>(x[i].lane[l]);
     }
     if (block.rows[i].soft) {
-      const Line& soft = row[JacobianLines(block.form) + 2];
+      soft = true;
+      const Line& compliance = row[JacobianLines(block.form) + 2];
       for (int l = 0; l < lanes; ++l) {
         const double impulse = static_cast<double>(x[i].lane[l]);
-        square[l] += static_cast<double>(soft.lane[l]) * impulse * impulse;
+        squares[l] += static_cast<double>(compliance.lane[l]) * impulse * impulse;
       }
     }
     row += RowLines(block.form, block.rows[i]);
   }
-  for (int l = 0; l < lanes; ++l) gains->gain[l] = gain[l];
-  for (int l = 0; l < lanes; ++l) gains->square[l] = square[l];
+  for (int l = 0; l < kLanes; ++l) gain[l] = l < lanes && l < block.lanes ? gains[l] : 0;
+  for (int l = 0; l < kLanes; ++l) square[l] = l < lanes && l < block.lanes ? squares[l] : 0;
+  return soft;
 }
 
-inline void FindGains(const PairBlock& block, const Line* lines, const Line* x, LaneGains* gains) {
-  if (block.lanes <= 4) return FindGainsOf<4>(block, lines, x, gains);
-  if (block.lanes <= 8) return FindGainsOf<8>(block, lines, x, gains);
-  FindGainsOf<kLanes>(block, lines, x, gains);
+inline bool FindGains(const PairBlock& block, const Line* lines, const Line* x, double* gain,
+                      double* square) {
+  if (block.lanes <= 4) return FindGainsOf<4>(block, lines, x, gain, square);
+  if (block.lanes <= 8) return FindGainsOf<8>(block, lines, x, gain, square);
+  return FindGainsOf<kLanes>(block, lines, x, gain, square);
 }
 
 inline void FindSquares(const BodyLane* bodies, int count, double* squares) {

@@ -21,12 +21,6 @@ struct Moving {
   Numbers* direction;
 };
 
-/// What the rows of a pair add to the energy that their problem minimises, in each lane in use [J].
-struct LaneGains {
-  double gain[kLanes];    ///< target'x
-  double square[kLanes];  ///< x'E x
-};
-
 /// Passes over numbers of lanes that relax nothing. Same bits on every target.
 struct LaneKernels {
   /// now += beta direction, direction := keep (now - last), last := now: so many lines, their first
@@ -47,9 +41,11 @@ struct LaneKernels {
   void (*add_energies)(const PairBlock* blocks, const BlockError* errors, int count, double scale,
                        double* sums);
 
-  /// target'x and x'E x of the rows of one block, lane by lane, to be written. @p lines: the floats
-  /// of the block; @p x: its impulses.
-  void (*find_gains)(const PairBlock& block, const Line* lines, const Line* x, LaneGains* gains);
+  /// target'x and x'E x [J] of the rows of one block, to be written: kLanes numbers each, 0 in
+  /// lanes that are not used. @p lines: the floats of the block; @p x: its impulses. False if no
+  /// row is soft, and so all squares are 0.
+  bool (*find_gains)(const PairBlock& block, const Line* lines, const Line* x, double* gain,
+                     double* square);
   /// |u|^2 of so many bodies.
   void (*find_squares)(const BodyLane* bodies, int count, double* squares);
   /// The largest |number|; what is not a number is passed over.

@@ -82,11 +82,13 @@ void BlockCycle::GuardStart() {
   if (!guards_) return;
   const SpanClock clock(settings_->tuning.spans, 0, {SpanKind::kGuard});
   merits_.Find(frame_, made_);
+  scales_.assign(islands_.size(), 1);
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (Done(i) || !merits_.of(i).is_worse_than_none()) continue;
-    ScaleIsland(frame_->plan(), i, merits_.of(i).best_scale(), &frame_->blocks());
+    scales_[i] = static_cast<float>(merits_.of(i).best_scale());
     islands_[i].guards.start = true;
   }
+  ScaleIslands(frame_->plan(), scales_, &frame_->blocks());
 }
 
 void BlockCycle::GuardResult() {
@@ -94,16 +96,18 @@ void BlockCycle::GuardResult() {
   for (GroupSweeps& group : chosen_) group.active = true;
   merits_.Find(frame_, chosen_);
   ChooseNone();
+  scales_.assign(islands_.size(), 1);
   bool any = false;
   for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
     if (!guards_ || !merits_.of(i).is_worse_than_none()) continue;
-    ScaleIsland(frame_->plan(), i, merits_.of(i).best_scale(), &frame_->blocks());
+    scales_[i] = static_cast<float>(merits_.of(i).best_scale());
     islands_[i].guards.result = true;
     if (steps_.asked()) steps_.Guarded(i);
     Choose(i);
     any = true;
   }
   if (!any) return;
+  ScaleIslands(frame_->plan(), scales_, &frame_->blocks());
   sweeps_->MeasureFree(chosen_);
   ReadErrors(&after_);
   merits_.Find(frame_, chosen_);

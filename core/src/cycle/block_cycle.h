@@ -162,6 +162,7 @@ class BlockCycle {
   std::vector<int> stepped_islands_, stopped_;
   std::vector<Residual> before_, after_, with_step_, alone_;  ///< by island: to compare
   IslandMerits merits_, merits_before_, alone_merits_;
+  std::vector<float> scales_;  ///< by island: what a guard multiplies impulses by
   BlockSnapshot done_, best_, before_steps_, after_steps_;
   int legs_ = 0;
   bool started_ = false;  ///< a whole sweep was made

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "cycle/joint_arms.h"
 #include "step/island_memories.h"
@@ -107,20 +109,34 @@ void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
 GeometricStiffness::Memory* GeometricStiffness::Find(const Body& body, int place) {
   const std::uint64_t key = IslandMemories::KeyOf(body, place);
   const auto at = static_cast<size_t>(place);
-  if (guess_.size() <= at) guess_.resize(at + 1, 0);
-  // bodies mostly keep their places, and memories theirs
-  size_t& guess = guess_[at];
-  const bool holds = guess <= memories_.size() &&
-                     (guess == memories_.size() || memories_[guess].key >= key) &&
-                     (guess == 0 || memories_[guess - 1].key < key);
-  if (!holds) {
-    const auto found = std::lower_bound(
-        memories_.begin(), memories_.end(), key,
-        [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
-    guess = static_cast<size_t>(found - memories_.begin());
+  if (at >= key_at_.size() || key_at_[at] != key) return FindMoved(key);
+  return memory_at_[at] < 0 ? nullptr : &memories_[memory_at_[at]];
+}
+
+GeometricStiffness::Memory* GeometricStiffness::FindMoved(std::uint64_t key) {
+  if (by_key_.size() != memories_.size()) {
+    by_key_.resize(memories_.size());
+    std::iota(by_key_.begin(), by_key_.end(), 0);
+    std::sort(by_key_.begin(), by_key_.end(), [this](int a, int b) {
+      return std::pair(memories_[a].key, a) < std::pair(memories_[b].key, b);
+    });
   }
-  const bool known = guess < memories_.size() && memories_[guess].key == key;
-  return known ? &memories_[guess] : nullptr;
+  const auto found = std::lower_bound(
+      by_key_.begin(), by_key_.end(), key,
+      [this](int memory, std::uint64_t wanted) { return memories_[memory].key < wanted; });
+  return found != by_key_.end() && memories_[*found].key == key ? &memories_[*found] : nullptr;
+}
+
+void GeometricStiffness::NotePlaces(std::span<const Body> bodies) {
+  by_key_.clear();
+  key_at_.resize(bodies.size());
+  memory_at_.assign(bodies.size(), -1);
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    key_at_[i] = IslandMemories::KeyOf(bodies[i], static_cast<int>(i));
+  }
+  for (size_t m = 0; m < memories_.size(); ++m) {
+    memory_at_[memories_[m].place] = static_cast<int>(m);
+  }
 }
 
 void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
@@ -173,9 +189,10 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
     if (joint.body_b != kWorld) pull_[joint.body_b] += impulse * arm_b / 2;
   }
   for (size_t i = 0; i < bodies; ++i) {
+    if (!memories_.empty()) known_[i] = Find(problem.bodies[i], static_cast<int>(i));
+    if (pull_[i] == 0 && known_[i] == nullptr) continue;
     // Most() of a sum of |f| |r| is at most six times that
     const double ratio = time_step * 6 * pull_[i] * problem.bodies[i].inv_inertia.trace();
-    if (!memories_.empty()) known_[i] = Find(problem.bodies[i], static_cast<int>(i));
     // not a number: looked at
     pull_[i] = known_[i] != nullptr || !(ratio < kRemember) ? 1 : 0;
   }
@@ -248,6 +265,7 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
   island_of_ = report.island_of;
   FindAnchored(problem, report);
   memories_.reserve(bodies);
+  by_key_.reserve(bodies);
   pulled_.reserve(bodies);
   sums_.reserve(bodies);
   pulled_.clear();
@@ -267,6 +285,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
   for (size_t i = 0; i < bodies.size() && !memories_.empty(); ++i) {
     if (known_[i] == nullptr) continue;
     Memory& memory = *known_[i];
+    memory.place = static_cast<int>(i);
     memory.seen = memory.inv_mass == bodies[i].inv_mass;
     memory.stiffness *= stepped_[i] != 0 ? 0 : kKeep;
   }
@@ -278,6 +297,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
     // one that is known may have been lowered
     const Memory fresh{.key = IslandMemories::KeyOf(body, pulled_[p]),
+                       .place = pulled_[p],
                        .inv_mass = body.inv_mass,
                        .inv_inertia = inv_inertia};
     if (memory == nullptr) {
@@ -293,10 +313,8 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     const double most = std::max(Most(memory.stiffness) * memory.inv_inertia, memory.held_ratio);
     return !memory.seen || step2 * most < kRemember / 2;
   });
-  if (fresh_.empty()) return;
   memories_.insert(memories_.end(), fresh_.begin(), fresh_.end());
-  std::sort(memories_.begin(), memories_.end(),
-            [](const Memory& a, const Memory& b) { return a.key < b.key; });
+  NotePlaces(bodies);
 }
 
 }  // namespace cairn

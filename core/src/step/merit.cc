@@ -42,9 +42,34 @@ std::uint32_t WithoutZero(const simd::PairBlock& block, const BlockData& data) {
   return without;
 }
 
-template <class T>
-void Multiply(T factor, T* number) {
-  *number = factor == 0 ? 0 : factor * *number;
+void Multiply(float factor, float* number) { *number = factor == 0 ? 0 : factor * *number; }
+
+void ScaleWhole(const Plan& plan, const Group& group, float factor, BlockData* blocks) {
+  for (simd::Line& line : std::span(blocks->x).subspan(group.first_x, group.x_lines)) {
+    for (float& x : line.lane) Multiply(factor, &x);
+  }
+  for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
+    if (plan.body_of_slot()[slot] == kWorld) continue;
+    for (float& u : blocks->bodies[slot].u) Multiply(factor, &u);
+  }
+}
+
+void ScaleShared(const Plan& plan, const Group& group, std::span<const float> factors,
+                 BlockData* blocks) {
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    for (int l = 0; l < block.lanes; ++l) {
+      const float factor = factors[plan.island_of(b, l)];
+      if (factor == 1) continue;
+      for (int k = 0; k < block.row_count; ++k) Multiply(factor, &blocks->x[block.x + k].lane[l]);
+    }
+  }
+  for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
+    const int body = plan.body_of_slot()[slot];
+    const float factor = body == kWorld ? 1 : factors[plan.island_of_body()[body]];
+    if (factor == 1) continue;
+    for (float& u : blocks->bodies[slot].u) Multiply(factor, &u);
+  }
 }
 
 /// See IsTooViolent().
@@ -79,7 +104,7 @@ void IslandMerits::Find(BlockFrame* frame, std::span<const GroupSweeps> groups) 
   }
   const size_t lanes = plan.blocks().size() * kLanes;
   if (gains_.size() < lanes) gains_.resize(lanes);
-  if (without_zero_.size() < plan.blocks().size()) without_zero_.resize(plan.blocks().size());
+  if (of_blocks_.size() < plan.blocks().size()) of_blocks_.resize(plan.blocks().size());
   const size_t squares = lanes + plan.body_of_slot().size();
   if (squares_.size() < squares) squares_.resize(squares);
   ForUnits(static_cast<int>(plan.units().size()), frame->crew(),
@@ -99,18 +124,14 @@ void IslandMerits::FindOfUnit(BlockFrame* frame, const Unit& unit) {
   const Plan& plan = frame->plan();
   const BlockData& data = frame->blocks();
   const simd::LaneKernels& kernels = frame->lane_kernels();
-  double* const squares = SquaresOf(plan.groups()[unit.group]);
-  simd::LaneGains of_block;
+  const Group& group = plan.groups()[unit.group];
   for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
-    kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x, &of_block);
-    // lanes that are not used count for nothing
-    std::fill(of_block.gain + block.lanes, of_block.gain + kLanes, 0);
-    std::fill(of_block.square + block.lanes, of_block.square + kLanes, 0);
-    const int of_group = b - plan.groups()[unit.group].first_block;
-    std::copy_n(of_block.gain, kLanes, gains_.data() + size_t{kLanes} * b);
-    std::copy_n(of_block.square, kLanes, squares + size_t{kLanes} * of_group);
-    without_zero_[b] = WithoutZero(block, data);
+    of_blocks_[b].soft =
+        kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x,
+                           gains_.data() + size_t{kLanes} * b,
+                           SquaresOf(group) + size_t{kLanes} * (b - group.first_block));
+    of_blocks_[b].without_zero = WithoutZero(block, data);
   }
 }
 
@@ -124,8 +145,9 @@ void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
     merits_[i] = {};
   }
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    for (int l = 0; l < plan.blocks()[b].lanes && without_zero_[b] != 0; ++l) {
-      if ((without_zero_[b] >> l & 1) == 0) continue;
+    const std::uint32_t without_zero = of_blocks_[b].without_zero;
+    for (int l = 0; l < plan.blocks()[b].lanes && without_zero != 0; ++l) {
+      if ((without_zero >> l & 1) == 0) continue;
       merits_[plan.island_of(b, l)].may_be_none = false;
     }
   }
@@ -153,29 +175,38 @@ void IslandMerits::AddShared(const Plan& plan, const Group& group) {
   const size_t lanes = static_cast<size_t>(group.blocks) * kLanes;
   const double* const gains = gains_.data() + size_t{kLanes} * group.first_block;
   const double* const squares = SquaresOf(group);
-  // add(island, gain, square) for all lanes and bodies
-  const auto for_parts = [&](const auto& add) {
+  // add(island, number) for all lanes, and for those that are soft and bodies
+  const auto for_lanes = [&](int b, const double* numbers, const auto& add) {
+    const int* const of_lane = plan.islands_of(group.first_block + b);
+    const int used = plan.blocks()[group.first_block + b].lanes;
+    const size_t first = static_cast<size_t>(b) * kLanes;
+    for (int l = 0; l < used; ++l) add(of_lane[l], numbers[first + l]);
+  };
+  const auto for_gains = [&](const auto& add) {
+    for (int b = 0; b < group.blocks; ++b) for_lanes(b, gains, add);
+  };
+  const auto for_squares = [&](const auto& add) {
     for (int b = 0; b < group.blocks; ++b) {
-      const int* const of_lane = plan.islands_of(group.first_block + b);
-      const int used = plan.blocks()[group.first_block + b].lanes;
-      const size_t first = static_cast<size_t>(b) * kLanes;
-      for (int l = 0; l < used; ++l) add(of_lane[l], gains[first + l], squares[first + l]);
+      if (of_blocks_[group.first_block + b].soft) for_lanes(b, squares, add);
     }
     for (int slot = 0; slot < group.slots; ++slot) {
       const int body = plan.body_of_slot()[group.first_slot + slot];
-      if (body != kWorld) add(plan.island_of_body()[body], 0.0, squares[lanes + slot]);
+      if (body != kWorld) add(plan.island_of_body()[body], squares[lanes + slot]);
     }
   };
   for (int i : islands) scales_[i] = {};
-  for_parts([this](int island, double gain, double square) {
-    Scale& most = scales_[island];
-    most.gain = std::max(most.gain, std::abs(gain));
-    most.square = std::max(most.square, square);
+  for_gains([this](int island, double gain) {
+    scales_[island].gain = std::max(scales_[island].gain, std::abs(gain));
+  });
+  for_squares([this](int island, double square) {
+    scales_[island].square = std::max(scales_[island].square, square);
   });
   for (int i : islands)
     scales_[i] = {SumScale(scales_[i].gain, kSumBits), SumScale(scales_[i].square, kSumBits)};
-  for_parts([this](int island, double gain, double square) {
+  for_gains([this](int island, double gain) {
     merits_[island].gain += simd::Rounded(gain * scales_[island].gain);
+  });
+  for_squares([this](int island, double square) {
     merits_[island].square += simd::Rounded(square * scales_[island].square);
   });
   for (int i : islands) {
@@ -184,20 +215,16 @@ void IslandMerits::AddShared(const Plan& plan, const Group& group) {
   }
 }
 
-void ScaleIsland(const Plan& plan, int island, double factor, BlockData* blocks) {
-  const Group& group = plan.groups()[plan.islands()[island].group];
-  const auto scale = static_cast<float>(factor);
-  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    const simd::PairBlock& block = plan.blocks()[b];
-    for (int l = 0; l < block.lanes; ++l) {
-      if (plan.island_of(b, l) != island) continue;
-      for (int k = 0; k < block.row_count; ++k) Multiply(scale, &blocks->x[block.x + k].lane[l]);
+void ScaleIslands(const Plan& plan, std::span<const float> factors, BlockData* blocks) {
+  for (const Group& group : plan.groups()) {
+    const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+    if (group.islands == 1) {
+      const float factor = factors[islands[0]];
+      if (factor != 1) ScaleWhole(plan, group, factor, blocks);
+    } else if (std::any_of(islands.begin(), islands.end(),
+                           [&](int island) { return factors[island] != 1; })) {
+      ScaleShared(plan, group, factors, blocks);
     }
-  }
-  for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
-    const int body = plan.body_of_slot()[slot];
-    if (body == kWorld || plan.island_of_body()[body] != island) continue;
-    for (float& u : blocks->bodies[slot].u) Multiply(scale, &u);
   }
 }
 

@@ -92,7 +92,7 @@ class IslandMerits {
   /// Of blocks of a unit, into gains_ and squares_.
   void FindOfUnit(BlockFrame* frame, const Unit& unit);
   void FindOfGroup(BlockFrame* frame, const Group& group);
-  // Sums of numbers that do not depend on their order. Of a group of one island, and of several.
+  // Sums of numbers that do not depend on their order: of a group of one island, and of several.
   void AddWhole(const simd::LaneKernels& kernels, const Group& group, int island);
   void AddShared(const Plan& plan, const Group& group);
   /// Where squares of a group are.
@@ -106,10 +106,15 @@ class IslandMerits {
   std::vector<Scale> scales_;
   /// By lane of all blocks; group by group, squares by lane and then those of bodies.
   std::vector<double> gains_, squares_;
-  std::vector<std::uint32_t> without_zero_;  ///< by block: lanes of rows that cannot be 0
+  struct OfBlock {
+    std::uint32_t without_zero = 0;  ///< lanes of rows that cannot be 0
+    bool soft = false;               ///< squares of its lanes may be above 0
+  };
+  std::vector<OfBlock> of_blocks_;
 };
 
-/// Multiplies impulses and velocity changes of an island; 0 leaves nothing of what is not finite.
-void ScaleIsland(const Plan& plan, int island, double factor, BlockData* blocks);
+/// Multiplies impulses and velocity changes of each island by its factor; 0 leaves nothing of what
+/// is not finite.
+void ScaleIslands(const Plan& plan, std::span<const float> factors, BlockData* blocks);
 
 }  // namespace cairn

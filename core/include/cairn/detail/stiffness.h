@@ -57,6 +57,7 @@ class GeometricStiffness {
   /// Of a body, by its id or place.
   struct Memory {
     std::uint64_t key = 0;
+    int place = 0;                                        ///< of the body in the last problem
     Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< K [N m], world axes
     Eigen::Vector3d held = Eigen::Vector3d::Zero();       ///< about principal axes [N m]
     double held_ratio = 0;                                ///< the largest of these over moments
@@ -73,13 +74,17 @@ class GeometricStiffness {
   void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void Remember(double time_step, std::span<const Body> bodies);
 
-  /// Of a body and its place.
+  /// Of a body and its place. Bodies mostly keep their places.
   Memory* Find(const Body& body, int place);
+  Memory* FindMoved(std::uint64_t key);
+  void NotePlaces(std::span<const Body> bodies);
 
-  std::vector<Memory> memories_;    ///< by key, ascending
-  std::vector<std::size_t> guess_;  ///< by body: where its key was last, or would have been
-  std::vector<Memory*> known_;      ///< by body: what is remembered of it, while that is learnt
-  std::vector<Memory> fresh_;       ///< those that are new
+  std::vector<Memory> memories_;
+  std::vector<std::uint64_t> key_at_;  ///< by place: key of the body there
+  std::vector<int> memory_at_;         ///< by place: in memories_, -1 for none
+  std::vector<int> by_key_;            ///< memories_ by key, ascending; empty until asked for
+  std::vector<Memory*> known_;         ///< by body: what is remembered of it, while that is learnt
+  std::vector<Memory> fresh_;          ///< those that are new
   std::vector<Raised> raised_;
   std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
   std::vector<char> anchored_;         ///< by island: something of it touches what does not move
