@@ -276,7 +276,7 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
                         blocks->memories().Recall(problem, island.bodies));
   }
 
-  // a leg for every island in turn, until all are done
+  // a round of every island in turn, until all are done
   for (bool busy = true; busy;) {
     busy = false;
     for (IslandCycle& cycle : cycles) {

@@ -28,319 +28,245 @@ constexpr double kKeepingSweeps = 1;
 
 }  // namespace
 
-void BlockCycle::Run(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-                     IslandMemories* memories, BudgetMeter* meter, Crew* crew, Report* report) {
-  BlockSweeps sweeps(frame, settings, meter, crew);
-  settings_ = &settings;
-  frame_ = frame;
-  meter_ = meter;
+void BlockCycle::Run(const CycleFrame& frame, Report* report) {
+  BlockSweeps sweeps(frame.blocks, frame.settings, frame.meter, frame.crew);
+  frame_ = &frame;
   sweeps_ = &sweeps;
-  crew_ = crew;
-  // a budget is shared by steps and sweeps: what both gain is watched
-  const bool asked = settings.method == Method::kPgsSm && settings.k_sm > 0;
-  watches_ = asked && meter->limited() && settings.step_policy != StepPolicy::kAlways;
-  weighs_ = asked && !meter->limited() && settings.step_policy == StepPolicy::kWeighed;
-  steps_.Begin(problem, settings, frame, memories, meter, crew, asked);
+  steps_.Begin(frame);
   Begin();
   GuardStart();
-  while (Active()) Leg();
+  while (islands_.active()) Round();
   Finish();
-  if (Learns()) Learn();
+  if (frame.learns()) planner_.Learn();
   FillReport(report);
 }
 
 void BlockCycle::Begin() {
   const Plan& plan = frame_->plan();
-  made_.assign(plan.groups().size(), {.active = true});
-  chosen_.assign(plan.groups().size(), {});
-  IslandState fresh;
-  fresh.best.energy = kInfinity;
-  states_.assign(plan.islands().size(), fresh);
-  IslandReport fresh_report;
-  if (steps_.asked()) fresh_report.no_step = NoStep::kEnded;
-  islands_.assign(plan.islands().size(), fresh_report);
-  stepped_islands_.clear();
-  stopped_.clear();
-  stopped_.reserve(islands_.size());
-  legs_ = 0;
+  islands_.Begin(plan, steps_.asked() ? NoStep::kEnded : NoStep::kNotAsked);
+  planner_.Begin(*frame_, &steps_, &islands_);
+  trials_.Begin(*frame_, {&steps_, &planner_, &islands_, sweeps_, &nncg_});
+  chosen_.Begin(plan);
+  Residual none;
+  none.energy = kInfinity;
+  bests_.assign(plan.islands().size(), none);
+  rounds_ = 0;
   started_ = false;
-  accelerates_ =
-      settings_->method == Method::kPgsSm && settings_->acceleration == Acceleration::kNncg;
-  nncg_.Begin(*frame_);
-  if (after_.size() < islands_.size()) after_.resize(islands_.size());
-  done_.Reserve(frame_->blocks());
-  if (meter_->limited()) best_.Reserve(frame_->blocks());
-  if (settings_->max_sweeps > 0) return;
-  for (size_t i = 0; i < islands_.size(); ++i) {
-    islands_[i].stop = StopReason::kSweepLimit;
-    made_[plan.islands()[i].group].active = false;
-  }
+  nncg_.Begin(*frame_->blocks);
+  if (after_.size() < plan.islands().size()) after_.resize(plan.islands().size());
+  done_.Reserve(*frame_->data());
+  if (frame_->meter->limited()) best_.Reserve(*frame_->data());
+  if (frame_->settings.max_sweeps > 0) return;
+  for (int i = 0; i < islands_.count(); ++i) islands_.Stop(i, StopReason::kSweepLimit);
+  CloseGroups();
 }
 
 void BlockCycle::GuardStart() {
-  guards_ = IsGuarded(*settings_);
-  if (!guards_) return;
-  const SpanClock clock(settings_->tuning.spans, 0, {SpanKind::kGuard});
-  merits_.Find(frame_, made_);
-  scales_.assign(islands_.size(), 1);
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (Done(i) || !merits_.of(i).is_worse_than_none()) continue;
+  if (!IsGuarded(frame_->settings)) return;
+  const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kGuard});
+  merits_.Find(frame_->blocks, islands_.groups());
+  scales_.assign(islands_.count(), 1);
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (islands_[i].done() || !merits_.of(i).is_worse_than_none()) continue;
     scales_[i] = static_cast<float>(merits_.of(i).best_scale());
-    islands_[i].guards.start = true;
+    islands_.report(i).guards.start = true;
   }
-  ScaleIslands(frame_->plan(), scales_, &frame_->blocks());
+  ScaleIslands(frame_->plan(), scales_, frame_->data());
 }
 
 void BlockCycle::GuardResult() {
-  const SpanClock clock(settings_->tuning.spans, 0, {SpanKind::kGuard});
-  for (GroupSweeps& group : chosen_) group.active = true;
-  merits_.Find(frame_, chosen_);
-  ChooseNone();
-  scales_.assign(islands_.size(), 1);
+  const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kGuard});
+  chosen_.AddAll();
+  merits_.Find(frame_->blocks, chosen_.groups());
+  if (!IsGuarded(frame_->settings)) return;
+  chosen_.Clear();
+  scales_.assign(islands_.count(), 1);
   bool any = false;
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!guards_ || !merits_.of(i).is_worse_than_none()) continue;
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!merits_.of(i).is_worse_than_none()) continue;
     scales_[i] = static_cast<float>(merits_.of(i).best_scale());
-    islands_[i].guards.result = true;
+    islands_.report(i).guards.result = true;
     if (steps_.asked()) steps_.Guarded(i);
-    Choose(i);
+    chosen_.Add(i);
     any = true;
   }
   if (!any) return;
-  ScaleIslands(frame_->plan(), scales_, &frame_->blocks());
-  sweeps_->MeasureFree(chosen_);
-  ReadErrors(&after_);
-  merits_.Find(frame_, chosen_);
+  ScaleIslands(frame_->plan(), scales_, frame_->data());
+  sweeps_->MeasureFree(chosen_.groups());
+  ReadErrors();
+  merits_.Find(frame_->blocks, chosen_.groups());
 }
 
-bool BlockCycle::Active() const {
-  return std::any_of(made_.begin(), made_.end(), [](const GroupSweeps& g) { return g.active; });
-}
-
-double BlockCycle::RowsOf(std::span<const GroupSweeps> groups) const {
-  double rows = 0;
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].active) rows += static_cast<double>(frame_->plan().groups()[g].rows);
-  }
-  return rows;
-}
-
-int BlockCycle::SweepsMade() const {
-  for (const GroupSweeps& group : made_) {
-    if (group.active) return group.sweeps;
-  }
-  return 0;
-}
-
-int BlockCycle::MostSweeps(int island) const {
-  return StepsTaken(island) > 0 ? settings_->max_sweeps : SweepsInPlace(island);
-}
-
-int BlockCycle::SweepsInPlace(int island) const {
-  const int most = settings_->max_sweeps;
-  if (!weighs_) return most;
-  // in whole legs
-  return most + (steps_.SweepsOfEffort(island, most) - most) / settings_->k_gs * settings_->k_gs;
-}
-
-void BlockCycle::Stop(int island, StopReason reason) {
-  islands_[island].stop = reason;
-  islands_[island].sweeps = made_[frame_->plan().islands()[island].group].sweeps;
-  stopped_.push_back(island);
-}
+void BlockCycle::ReadErrors() { sweeps_->ErrorsOfIslands(chosen_.groups(), after_); }
 
 void BlockCycle::CloseGroups() {
-  const Plan& plan = frame_->plan();
-  for (int island : stopped_) {
-    // the lanes go on while another island of the group does
-    const int g = plan.islands()[island].group;
-    const Group& group = plan.groups()[g];
-    const auto others = plan.islands_of_groups().subspan(group.first_island, group.islands);
-    made_[g].active = made_[g].active &&
-                      !std::all_of(others.begin(), others.end(), [&](int i) { return Done(i); });
-    if (made_[g].active) done_.Take(plan, island, frame_->blocks());
+  // the lanes go on while another island of the group does
+  islands_.CloseGroups([this](int i) { done_.Take(frame_->plan(), i, *frame_->data()); });
+}
+
+void BlockCycle::Round() {
+  // what came after the last round may have taken what was left
+  if (rounds_ > 0 && !trials_.pending() && frame_->meter->Late(0)) StopLate();
+  if (!islands_.active()) return;
+  const Settings& settings = frame_->settings;
+  const int before = islands_.SweepsMade();
+  const bool more = frame_->weighs_steps() && before >= settings.max_sweeps;
+  const int end =
+      before + (more ? settings.k_gs : std::min(settings.k_gs, settings.max_sweeps - before));
+  for (bool whole = true; whole && islands_.active() && islands_.SweepsMade() < end;) {
+    const int unseen = UnseenAfter(islands_.SweepsMade());
+    whole = Sweep(std::min(end - islands_.SweepsMade(), unseen));
+    const int made = islands_.SweepsMade();
+    if (whole && made == 1) MarkStart();
+    if (whole && made >= kMarkedSweep) islands_.SeeRuns();
+    if (!whole || made == end) trials_.Judge(made - before);
+    JudgeIslands(whole);
   }
-  stopped_.clear();
-}
-
-void BlockCycle::ChooseNone() {
-  for (GroupSweeps& group : chosen_) group.active = false;
-}
-
-void BlockCycle::MeasureChosen(std::vector<Residual>* residuals) {
-  sweeps_->Measure(chosen_);
-  ReadErrors(residuals);
-}
-
-void BlockCycle::ReadErrors(std::vector<Residual>* residuals) const {
-  if (residuals->size() < islands_.size()) residuals->resize(islands_.size());
-  sweeps_->ErrorsOfIslands(chosen_, *residuals);
-}
-
-void BlockCycle::Leg() {
-  // what came after the last leg may have taken what was left
-  if (legs_ > 0 && stepped_islands_.empty() && meter_->Late(0)) StopLate();
-  if (!Active()) return;
-  const int before = SweepsMade();
-  const bool more = weighs_ && before >= settings_->max_sweeps;
-  const int end = more ? before + settings_->k_gs
-                       : before + std::min(settings_->k_gs, settings_->max_sweeps - before);
-  for (bool whole = true; whole && Active() && SweepsMade() < end;) {
-    const int unseen = UnseenAfter(SweepsMade());
-    whole = Sweep(std::min(end - SweepsMade(), unseen));
-    if (whole && SweepsMade() == 1) MarkStart();
-    if (whole && SweepsMade() >= kMarkedSweep) MarkRuns();
-    if (!whole || SweepsMade() == end) KeepBetterSteps(SweepsMade() - before);
-    Judge(whole);
-  }
-  ++legs_;
+  ++rounds_;
   KeepBest();
-  if (Active()) TakeSteps();
+  if (islands_.active()) trials_.Take(planner_.PlanRound());
 }
 
 void BlockCycle::MarkStart() {
   started_ = true;
-  for (size_t i = 0; i < islands_.size(); ++i) islands_[i].residual_before = states_[i].seen;
+  for (int i = 0; i < islands_.count(); ++i) islands_.report(i).residual_before = islands_[i].seen;
 }
 
 bool BlockCycle::Sweep(int count) {
-  if (!accelerates_) {
-    const bool whole = sweeps_->Sweep(count, made_);
-    if (whole) See(made_);
+  if (!frame_->accelerates()) {
+    const bool whole = sweeps_->Sweep(count, islands_.groups());
+    if (whole) islands_.See(islands_.groups(), sweeps_);
     return whole;
   }
   for (bool whole = true; count > 0; --count) {
     if (MoveOn()) {
-      sweeps_->SweepWhole(made_);
+      sweeps_->SweepWhole(islands_.groups());
     } else {
-      whole = sweeps_->Sweep(1, made_);
+      whole = sweeps_->Sweep(1, islands_.groups());
     }
     if (!whole) return false;
-    See(made_);
-    LearnWays();
+    islands_.See(islands_.groups(), sweeps_);
+    LearnDirections();
   }
   return true;
 }
 
-void BlockCycle::LearnWays() {
-  const Plan& plan = frame_->plan();
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!made_[plan.islands()[i].group].active) continue;
+void BlockCycle::LearnDirections() {
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!islands_.group_of(i).active) continue;
     // what a step leaves behind is rough, and wants to be smoothed, not carried on
-    if (states_[i].stepped) {
+    if (islands_[i].stepped()) {
       nncg_.Forget(i);
     } else {
-      nncg_.See(i, after_[i].energy);
+      nncg_.See(i, islands_.last_seen(i).energy);
     }
   }
-  nncg_.ForgetWhereRowsEnd(SweepsMade());
+  nncg_.ForgetWhereRowsEnd(islands_.SweepsMade());
 }
 
 bool BlockCycle::MoveOn() {
-  const bool all_stepped = std::all_of(states_.begin(), states_.end(),
-                                       [](const IslandState& island) { return island.stepped; });
-  if (all_stepped) return false;
-  const double rows = ActiveRows();
-  if (!meter_->Fits(0, (1 + Nncg::kSweeps) * rows)) {
+  const std::span<const IslandProgress> states = islands_.states();
+  if (std::all_of(states.begin(), states.end(), [](const auto& i) { return i.stepped(); })) {
+    return false;
+  }
+  BudgetMeter& meter = *frame_->meter;
+  const double rows = islands_.ActiveRows();
+  if (!meter.Fits(0, (1 + Nncg::kSweeps) * rows)) {
     nncg_.ForgetAll();
     return false;
   }
-  meter_->Begin();
-  nncg_.MoveOn(made_, crew_, frame_);
-  meter_->Charge(WorkKind::kSweep, Nncg::kSweeps * rows);
+  meter.Begin();
+  nncg_.MoveOn(islands_.groups(), frame_->crew, frame_->blocks);
+  meter.Charge(WorkKind::kSweep, Nncg::kSweeps * rows);
   return true;
 }
 
-void BlockCycle::See(std::span<const GroupSweeps> groups) {
-  const Plan& plan = frame_->plan();
-  sweeps_->ErrorsOfIslands(groups, after_);
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (Done(i) || !groups[plan.islands()[i].group].active) continue;
-    states_[i].seen = after_[i];
+void BlockCycle::JudgeIslands(bool seen) {
+  const Settings& settings = frame_->settings;
+  for (int i = 0; i < islands_.count() && seen; ++i) {
+    if (islands_[i].open() && Largest(islands_[i].seen) <= settings.tuning.min_progress) {
+      islands_.Stop(i, StopReason::kStationary);
+    }
   }
-}
-
-void BlockCycle::Judge(bool seen) {
-  const Plan& plan = frame_->plan();
-  for (int i = 0; i < static_cast<int>(islands_.size()) && seen; ++i) {
-    if (!Open(i)) continue;
-    if (Largest(states_[i].seen) <= settings_->tuning.min_progress)
-      Stop(i, StopReason::kStationary);
-  }
-  if (seen && settings_->tolerance > 0) JudgeNear();
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!Open(i)) continue;
-    const int sweeps = made_[plan.islands()[i].group].sweeps;
-    if (meter_->spent() && sweeps >= LeastSweeps(*settings_)) {
-      Stop(i, meter_->stop_reason());
-    } else if (sweeps >= MostSweeps(i)) {
-      Stop(i, StopReason::kSweepLimit);
+  if (seen && settings.tolerance > 0) JudgeNear();
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!islands_[i].open()) continue;
+    const int sweeps = islands_.group_of(i).sweeps;
+    if (frame_->meter->spent() && sweeps >= LeastSweeps(settings)) {
+      islands_.Stop(i, frame_->meter->stop_reason());
+    } else if (sweeps >= planner_.MostSweeps(i)) {
+      islands_.Stop(i, StopReason::kSweepLimit);
     }
   }
   CloseGroups();
 }
 
 void BlockCycle::StopLate() {
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    const int sweeps = made_[frame_->plan().islands()[i].group].sweeps;
-    if (Open(i) && sweeps >= LeastSweeps(*settings_)) Stop(i, meter_->stop_reason());
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (islands_[i].open() && islands_.group_of(i).sweeps >= LeastSweeps(frame_->settings)) {
+      islands_.Stop(i, frame_->meter->stop_reason());
+    }
   }
   CloseGroups();
 }
 
 void BlockCycle::JudgeNear() {
   // near the solution, the state itself is measured
-  const auto near = [this](int i) {
-    return Open(i) && Largest(states_[i].seen) <= kNearTolerance * settings_->tolerance;
+  const double tolerance = frame_->settings.tolerance;
+  const auto near = [&](int i) {
+    return islands_[i].open() && Largest(islands_[i].seen) <= kNearTolerance * tolerance;
   };
-  ChooseNone();
+  chosen_.Clear();
   bool any = false;
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
+  for (int i = 0; i < islands_.count(); ++i) {
     if (!near(i)) continue;
-    Choose(i);
+    chosen_.Add(i);
     any = true;
   }
   if (!any) return;
-  MeasureChosen(&after_);
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (near(i) && Largest(after_[i]) <= settings_->tolerance) Stop(i, StopReason::kConverged);
+  sweeps_->Measure(chosen_.groups());
+  ReadErrors();
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (near(i) && Largest(after_[i]) <= tolerance) islands_.Stop(i, StopReason::kConverged);
   }
 }
 
 void BlockCycle::KeepBest() {
-  // after 1, 2, 4, 8 ... legs: that costs little, and the last one is never far behind
-  if (!meter_->limited() || !std::has_single_bit(static_cast<unsigned>(legs_))) return;
-  ChooseNone();
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (!Done(i)) Choose(i);
+  // after 1, 2, 4, 8 ... rounds: that costs little, and the last one is never far behind
+  BudgetMeter& meter = *frame_->meter;
+  if (!meter.limited() || !std::has_single_bit(static_cast<unsigned>(rounds_))) return;
+  chosen_.Clear();
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!islands_[i].done()) chosen_.Add(i);
   }
-  if (!Active() || meter_->Late(kKeepingSweeps * RowsOf(chosen_))) return;
-  sweeps_->MeasureFree(chosen_);
-  ReadErrors(&after_);
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (Done(i) || after_[i].energy >= states_[i].best.energy) continue;
-    best_.Take(frame_->plan(), i, frame_->blocks());
-    states_[i].best = after_[i];
+  if (!islands_.active() || meter.Late(kKeepingSweeps * chosen_.Rows())) return;
+  sweeps_->MeasureFree(chosen_.groups());
+  ReadErrors();
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (islands_[i].done() || after_[i].energy >= bests_[i].energy) continue;
+    best_.Take(frame_->plan(), i, *frame_->data());
+    bests_[i] = after_[i];
   }
 }
 
 void BlockCycle::Finish() {
   const Plan& plan = frame_->plan();
-  BlockData* const blocks = &frame_->blocks();
   // islands that were done before others of their group
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    if (islands_[i].sweeps < made_[plan.islands()[i].group].sweeps) done_.Restore(plan, i, blocks);
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (islands_.report(i).sweeps < islands_.group_of(i).sweeps) {
+      done_.Restore(plan, i, frame_->data());
+    }
   }
-  for (GroupSweeps& group : chosen_) group.active = true;
-  sweeps_->MeasureFree(chosen_);
-  ReadErrors(&after_);
+  chosen_.AddAll();
+  sweeps_->MeasureFree(chosen_.groups());
+  ReadErrors();
 
   // sweeps may also make it worse, where friction bounds move: then the best state there was
-  for (int i = 0; i < static_cast<int>(islands_.size()); ++i) {
-    const bool better = states_[i].best.energy < after_[i].energy;
-    if (!better || islands_[i].stop == StopReason::kConverged) continue;
-    best_.Restore(plan, i, blocks);
-    after_[i] = states_[i].best;
+  for (int i = 0; i < islands_.count(); ++i) {
+    const bool better = bests_[i].energy < after_[i].energy;
+    if (!better || islands_.report(i).stop == StopReason::kConverged) continue;
+    best_.Restore(plan, i, frame_->data());
+    after_[i] = bests_[i];
   }
   GuardResult();
 }
@@ -349,14 +275,14 @@ void BlockCycle::FillReport(Report* report) const {
   const Plan& plan = frame_->plan();
   const std::span<const int> island_of = plan.island_of_body();
   report->island_of.assign(island_of.begin(), island_of.end());
-  report->islands.resize(islands_.size());
-  for (size_t i = 0; i < islands_.size(); ++i) {
-    IslandReport& island = report->islands[i] = islands_[i];
+  report->islands.resize(islands_.count());
+  for (int i = 0; i < islands_.count(); ++i) {
+    IslandReport& island = report->islands[i] = islands_.report(i);
     island.first_body = plan.islands()[i].first_body;
     island.bodies = plan.islands()[i].bodies;
     island.rows = plan.islands()[i].rows;
     island.residual = after_[i];
-    island.merit = merits_.of(static_cast<int>(i)).value();
+    island.merit = merits_.of(i).value();
     if (!started_) island.residual_before = island.residual;
   }
 }

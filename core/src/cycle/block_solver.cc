@@ -46,7 +46,7 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
   const Shift shift(crew, threads);
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
-  cycle_.Run(problem, settings, &frame_, &memories_, meter, crew, report);
+  cycle_.Run({problem, settings, &frame_, &memories_, meter, crew}, report);
   if (!frame_.IsFinite() || !AreFinite(report->islands)) {
     // nothing that came of it is to be remembered
     cycle_ = {};

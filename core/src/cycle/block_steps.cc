@@ -43,28 +43,27 @@ constexpr double kShareOfScalar = 0.65;
 
 }  // namespace
 
-void BlockSteps::Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-                       IslandMemories* memories, BudgetMeter* meter, Crew* crew, bool asked) {
-  problem_ = &problem;
-  settings_ = &settings;
-  frame_ = frame;
-  memories_ = memories;
-  meter_ = meter;
-  crew_ = crew;
-  asked_ = asked;
+void BlockSteps::Begin(const CycleFrame& frame) {
+  problem_ = &frame.problem;
+  settings_ = &frame.settings;
+  frame_ = frame.blocks;
+  memories_ = frame.memories;
+  meter_ = frame.meter;
+  crew_ = frame.crew;
+  asked_ = frame.asks_for_steps();
   if (!asked_) return;
-  const Plan& plan = frame->plan();
+  const Plan& plan = frame.plan();
   memory_of_island_.assign(plan.islands().size(), nullptr);
   islands_.assign(plan.islands().size(), {});
   islands_now_.assign(plan.islands().size(), {});
   work_.assign(plan.islands().size(), 0);
   given_up_.assign(plan.islands().size(), 0);
-  limits_.assign(plan.islands().size(), settings.k_sm);
+  limits_.assign(plan.islands().size(), settings_->k_sm);
   if (float_step_ == nullptr) {
-    float_step_ = std::make_unique<BlockStep<float>>(frame->target());
-    double_step_ = std::make_unique<BlockStep<double>>(frame->target());
+    float_step_ = std::make_unique<BlockStep<float>>(frame_->target());
+    double_step_ = std::make_unique<BlockStep<double>>(frame_->target());
   }
-  if (plan_number_ != frame->plan_number()) ReadPlan();
+  if (plan_number_ != frame_->plan_number()) ReadPlan();
   ReadStrains();
 }
 

@@ -6,11 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "pack/block_frame.h"
-#include "runtime/budget.h"
-#include "runtime/crew.h"
+#include "cycle/cycle_frame.h"
 #include "step/block_step.h"
-#include "step/island_memories.h"
 #include "step/merit.h"
 
 namespace cairn {
@@ -20,9 +17,8 @@ namespace cairn {
 /// rows without want a proximal term that floats cannot hold.
 class BlockSteps {
  public:
-  /// A new frame. The arguments must outlive it. @p asked: steps may be taken
-  void Begin(const ContactProblem& problem, const Settings& settings, BlockFrame* frame,
-             IslandMemories* memories, BudgetMeter* meter, Crew* crew, bool asked);
+  /// A new frame.
+  void Begin(const CycleFrame& frame);
 
   /// Steps may be taken at all.
   bool asked() const { return asked_; }

@@ -9,7 +9,8 @@
 
 namespace cairn {
 
-/// The algorithm on one island, a leg at a time so that many islands can share a budget:
+/// The algorithm on one island, a round of k_gs sweeps at a time so that many islands can share a
+/// budget:
 ///
 ///   repeat   k_gs sweeps
 ///            subspace step and k_gs sweeps, or k_gs sweeps alone if those end better

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "cycle/step_trials.h"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+/// A step that brought the residual down to this share, and phi down, is kept without trying sweeps
+/// alone: that trial costs as much as the sweeps of the step do.
+constexpr double kSureGain = 0.7;
+/// What measuring a step and undoing it costs, in sweeps.
+constexpr double kJudgingSweeps = 2;
+
+}  // namespace
+
+void StepTrials::Begin(const CycleFrame& frame, const Parts& parts) {
+  frame_ = &frame;
+  parts_ = parts;
+  chosen_.Begin(frame.plan());
+  stepped_.clear();
+  verdicts_.assign(frame.plan().islands().size(), Verdict::kKept);
+}
+
+void StepTrials::Choose(std::span<const int> islands) {
+  chosen_.Clear();
+  for (int i : islands) chosen_.Add(i);
+}
+
+void StepTrials::Measure(std::vector<Residual>* residuals) {
+  const size_t islands = frame_->plan().islands().size();
+  if (residuals->size() < islands) residuals->resize(islands);
+  parts_.sweeps->Measure(chosen_.groups());
+  parts_.sweeps->ErrorsOfIslands(chosen_.groups(), *residuals);
+}
+
+void StepTrials::SetJudgingAside() { frame_->meter->SetAside(kJudgingSweeps * chosen_.Rows()); }
+
+void StepTrials::Take(std::span<const int> islands) {
+  if (islands.empty()) return;
+  stepped_.assign(islands.begin(), islands.end());
+  Choose(stepped_);
+  if (IsGuarded(frame_->settings)) parts_.steps->FindBefore();
+  Measure(&before_);
+  merits_before_.Find(frame_->blocks, chosen_.groups());
+  SetJudgingAside();
+
+  const std::span<const int> all = stepped_;
+  for (size_t begin = 0, end = 0; begin < all.size(); begin = end) {
+    const int group = frame_->plan().islands()[all[begin]].group;
+    while (end < all.size() && frame_->plan().islands()[all[end]].group == group) ++end;
+    TakeOfGroup(group, all.subspan(begin, end - begin));
+  }
+  std::erase_if(stepped_, [this](int i) { return !(*parts_.islands)[i].stepped(); });
+  if (stepped_.empty()) frame_->meter->SetAside(0);
+}
+
+void StepTrials::TakeOfGroup(int group, std::span<const int> islands) {
+  BlockSteps& steps = *parts_.steps;
+  for (int i : islands) before_steps_.Take(frame_->plan(), i, *frame_->data());
+  steps.Take(group, islands);
+  for (int i : islands) {
+    parts_.nncg->Forget(i);
+    IslandProgress& island = (*parts_.islands)[i];
+    IslandReport& report = parts_.islands->report(i);
+    report.factorisations += steps.result(i).factorisations;
+    report.step_work += static_cast<std::int64_t>(steps.work(i));
+    if (steps.result(i).solved) {
+      island.Step();
+    } else if (steps.given_up(i)) {
+      island.EndSteps();
+      report.no_step = NoStep::kTooDear;
+    } else {
+      steps.Judge(i, false);
+      ++report.steps_restored;
+    }
+  }
+}
+
+bool StepTrials::IsSure(int i) {
+  if (frame_->weighs_steps() && parts_.steps->odds(i).wants_trial()) return false;
+  return with_step_[i].energy <= kSureGain * before_[i].energy && GainOfStep(i) >= 0;
+}
+
+double StepTrials::GainOfStep(int i) const {
+  return merits_before_.of(i).value() - merits_with_step_.of(i).value();
+}
+
+double StepTrials::GainAlone(int i) const {
+  return merits_before_.of(i).value() - merits_alone_.of(i).value();
+}
+
+bool StepTrials::IsBetterAlone(int i) {
+  if (IsSure(i)) return false;
+  const StepTrial trial{.with_step = with_step_[i].energy,
+                        .alone = alone_[i].energy,
+                        .closer = GainOfStep(i) > GainAlone(i)};
+  return trial.is_better_alone();
+}
+
+void StepTrials::FindHarm() {
+  merits_with_step_.Find(frame_->blocks, chosen_.groups());
+  for (int i : stepped_) verdicts_[i] = Verdict::kKept;
+  if (!IsGuarded(frame_->settings)) return;
+  BlockSteps& steps = *parts_.steps;
+  steps.FindAfter();
+  for (int i : stepped_) {
+    const Merit &before = merits_before_.of(i), &after = merits_with_step_.of(i);
+    const double error = Largest(before_[i]);
+    const bool harmful = after.is_worse_than_none() || IsTooMuch(steps.result(i).joint_speed) ||
+                         IsTooViolent(before, after, steps.mass(i), error) ||
+                         IsFlung(steps.before(i), steps.after(i), steps.mass(i), error);
+    if (harmful) verdicts_[i] = Verdict::kHarmful;
+  }
+}
+
+void StepTrials::Judge(int sweeps) {
+  if (!pending()) return;
+  Choose(stepped_);
+  frame_->meter->SetAside(0);
+  Measure(&with_step_);
+  FindHarm();
+  chosen_.Clear();
+  bool sure = true;
+  for (int i : stepped_) {
+    if (verdicts_[i] == Verdict::kKept && IsSure(i)) continue;
+    chosen_.Add(i);
+    sure = false;
+  }
+  if (!sure && frame_->meter->out_of_time()) {
+    CompareWithBefore();
+  } else if (!sure) {
+    TryAlone(sweeps);
+  }
+  for (int i : stepped_) Note(i, sweeps);
+  stepped_.clear();
+}
+
+void StepTrials::Note(int i, int sweeps) {
+  BlockSteps& steps = *parts_.steps;
+  CycleIslands& islands = *parts_.islands;
+  IslandReport& report = islands.report(i);
+  const bool accepted = verdicts_[i] == Verdict::kKept;
+  if (frame_->watches_gains() && sweeps >= kLeastSweepsAfterStep && before_[i].energy > 0) {
+    steps.odds(i).LearnStep(islands.StepsTaken(i), with_step_[i].energy / before_[i].energy);
+  }
+  if (accepted) {
+    islands[i].run.Begin(islands.SweepsMade() - sweeps, islands.SweepsMade(),
+                         islands[i].seen.energy);
+  } else {
+    parts_.nncg->Forget(i);
+  }
+  if (verdicts_[i] == Verdict::kHarmful) {
+    report.guards.step = true;
+    steps.Guarded(i);
+  }
+  steps.Judge(i, accepted);
+  ++(accepted ? report.steps_accepted : report.steps_restored);
+  islands[i].Judge();
+}
+
+void StepTrials::CompareWithBefore() {
+  for (int i : stepped_) {
+    if (!chosen_.Has(i)) continue;
+    const StepTrial trial{
+        .with_step = with_step_[i].energy, .alone = before_[i].energy, .closer = GainOfStep(i) > 0};
+    if (verdicts_[i] == Verdict::kKept && !IsSure(i) && trial.is_better_alone()) {
+      verdicts_[i] = Verdict::kBetterAlone;
+    }
+    if (verdicts_[i] == Verdict::kKept) continue;
+    before_steps_.Restore(frame_->plan(), i, frame_->data());
+  }
+}
+
+void StepTrials::TryAlone(int sweeps) {
+  // the same number of sweeps from before the steps, as far as the budget goes
+  const Plan& plan = frame_->plan();
+  CycleIslands& islands = *parts_.islands;
+  if (seen_with_step_.size() < plan.islands().size()) seen_with_step_.resize(plan.islands().size());
+  for (int i = 0; i < islands.count(); ++i) {
+    if (!chosen_.Has(i)) continue;
+    after_steps_.Take(plan, i, *frame_->data());
+    seen_with_step_[i] = islands[i].seen;
+    if (islands[i].stepped()) before_steps_.Restore(plan, i, frame_->data());
+  }
+  for (size_t g = 0; g < chosen_.groups().size(); ++g) {
+    chosen_.groups()[g].sweeps = std::max(0, islands.groups()[g].sweeps - sweeps);
+  }
+  SetJudgingAside();
+  if (parts_.sweeps->Sweep(sweeps, chosen_.groups()) && sweeps > 0) {
+    islands.See(chosen_.groups(), parts_.sweeps);
+  }
+  frame_->meter->SetAside(0);
+  Measure(&alone_);
+  merits_alone_.Find(frame_->blocks, chosen_.groups());
+  for (int i = 0; i < islands.count(); ++i) {
+    if (!chosen_.Has(i)) continue;
+    if (islands[i].stepped()) {
+      if (verdicts_[i] == Verdict::kKept && IsBetterAlone(i)) verdicts_[i] = Verdict::kBetterAlone;
+      if (frame_->learns()) {
+        const bool more = parts_.planner->SweepsInPlace(i) > frame_->settings.max_sweeps;
+        parts_.steps->odds(i).LearnGains(GainOfStep(i), GainAlone(i), more);
+      }
+      if (verdicts_[i] != Verdict::kKept) continue;
+    }
+    islands[i].seen = seen_with_step_[i];
+    after_steps_.Restore(plan, i, frame_->data());
+  }
+}
+
+}  // namespace cairn

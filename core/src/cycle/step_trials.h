@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/report.h"
+#include "cycle/block_steps.h"
+#include "cycle/cycle_frame.h"
+#include "cycle/cycle_islands.h"
+#include "cycle/step_planner.h"
+#include "pack/block_snapshot.h"
+#include "step/merit.h"
+#include "sweep/block_sweep.h"
+#include "sweep/nncg.h"
+
+namespace cairn {
+
+/// Takes steps, and after the sweeps that follow them keeps those that are better than as many
+/// sweeps alone, and do no harm.
+class StepTrials {
+ public:
+  /// What it works with; outlives the frame.
+  struct Parts {
+    BlockSteps* steps;
+    StepPlanner* planner;
+    CycleIslands* islands;
+    BlockSweeps* sweeps;
+    Nncg* nncg;
+  };
+  void Begin(const CycleFrame& frame, const Parts& parts);
+
+  /// Takes a step on each of these islands; those of a group follow each other.
+  void Take(std::span<const int> islands);
+  /// Steps were taken and are not judged yet.
+  bool pending() const { return !stepped_.empty(); }
+  /// Judges them, so many sweeps later, and undoes those that are not kept.
+  void Judge(int sweeps);
+
+ private:
+  enum class Verdict : char { kKept, kBetterAlone, kHarmful };
+
+  void TakeOfGroup(int group, std::span<const int> islands);
+  /// Residuals of the islands of the groups that are chosen.
+  void Measure(std::vector<Residual>* residuals);
+  void Choose(std::span<const int> islands);
+  /// Marks steps that put in energy, threw or flung bodies, or left impulses that floats cannot
+  /// hold.
+  void FindHarm();
+  /// A step did so much that sweeps alone need not be tried.
+  bool IsSure(int island);
+  /// The sweeps without its step brought an island closer to its solution than those with it.
+  bool IsBetterAlone(int island);
+  /// By how much a step and its sweeps brought phi down, see Merit, and so many sweeps alone [J].
+  double GainOfStep(int island) const;
+  double GainAlone(int island) const;
+  /// Makes as many sweeps from before the steps on the islands that are chosen, and keeps the
+  /// better state of each.
+  void TryAlone(int sweeps);
+  /// There is no time for that: what is no better than before the step is undone.
+  void CompareWithBefore();
+  /// What became of a step, for all that learn from it.
+  void Note(int island, int sweeps);
+  /// Sets time aside to judge the steps on the islands that are chosen.
+  void SetJudgingAside();
+
+  const CycleFrame* frame_ = nullptr;
+  Parts parts_ = {};
+  GroupChoice chosen_;
+  std::vector<int> stepped_;
+  std::vector<Verdict> verdicts_;                                      ///< by island
+  std::vector<Residual> seen_with_step_, before_, with_step_, alone_;  ///< by island
+  IslandMerits merits_before_, merits_with_step_, merits_alone_;
+  BlockSnapshot before_steps_, after_steps_;
+};
+
+}  // namespace cairn

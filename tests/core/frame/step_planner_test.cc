@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// Which islands take a step between two rounds of sweeps.
+#include "cycle/step_planner.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/core/support/block_problems.h"
+
+namespace cairn {
+namespace {
+
+using test::Scene;
+
+/// A tower and a single box, between two rounds of sweeps that left an error.
+class BetweenRounds {
+ public:
+  explicit BetweenRounds(const Settings& settings)
+      : settings_(settings),
+        scene_(test::Together({test::Wall(1, 12), test::Wall(1, 1)})),
+        problem_(scene_.problem()),
+        rows_(scene_.rows.size(), 0.0) {
+    EXPECT_EQ(blocks_.Begin(problem_, 1, {.rows = rows_}, &crew_), PackResult::kDone);
+    islands.Begin(blocks_.plan(), NoStep::kEnded);
+    steps.Begin(frame_);
+    planner.Begin(frame_, &steps, &islands);
+    EXPECT_EQ(islands.count(), 2);
+    islands.groups()[0].sweeps = settings_.k_gs;
+    for (int i = 0; i < islands.count(); ++i) islands[i].seen = {.max = 0.5, .energy = 1};
+  }
+  std::vector<int> Plan() {
+    const std::span<const int> planned = planner.PlanRound();
+    return {planned.begin(), planned.end()};
+  }
+
+ private:
+  Settings settings_;
+  Scene scene_;
+  ContactProblem problem_;
+  std::vector<double> rows_;
+  Crew crew_{1};
+  BlockFrame blocks_;
+  IslandMemories memories_;
+  WorkPrices prices_;
+  BudgetMeter meter_{settings_.budget, static_cast<double>(rows_.size()), &prices_};
+  CycleFrame frame_{problem_, settings_, &blocks_, &memories_, &meter_, &crew_};
+
+ public:
+  CycleIslands islands;
+  BlockSteps steps;
+  StepPlanner planner;
+};
+
+Settings WithPolicy(StepPolicy policy) {
+  Settings settings;
+  settings.step_policy = policy;
+  settings.max_sweeps = 100;
+  return settings;
+}
+
+using All = std::vector<int>;
+
+TEST(StepPlanner, AlwaysPlansStepsOnAllIslands) {
+  BetweenRounds round(WithPolicy(StepPolicy::kAlways));
+  EXPECT_EQ(round.Plan(), (All{0, 1}));
+  EXPECT_EQ(round.Plan(), (All{0, 1})) << "planning alone changes nothing";
+}
+
+TEST(StepPlanner, LeavesIslandsAloneForARoundAfterAStepWasJudged) {
+  BetweenRounds round(WithPolicy(StepPolicy::kAlways));
+  round.islands[0].Step();
+  EXPECT_EQ(round.Plan(), All{1});
+  round.islands[0].Judge();
+  EXPECT_EQ(round.Plan(), All{1});
+  EXPECT_EQ(round.Plan(), (All{0, 1}));
+}
+
+TEST(StepPlanner, PlansNoStepWithoutSweepsAfterIt) {
+  Settings settings = WithPolicy(StepPolicy::kAlways);
+  settings.max_sweeps = settings.k_gs + 1;
+  EXPECT_EQ(BetweenRounds(settings).Plan(), All{});
+}
+
+TEST(StepPlanner, PlansNoneWhereNoneAreAskedFor) {
+  Settings settings = WithPolicy(StepPolicy::kAlways);
+  settings.k_sm = 0;
+  EXPECT_EQ(BetweenRounds(settings).Plan(), All{});
+}
+
+TEST(StepPlanner, SaysThatAStepDoesNotFitTheBudgetAndPlansNoMoreInTheFrame) {
+  Settings settings = WithPolicy(StepPolicy::kAlways);
+  settings.budget = Budget::Work(10);
+  BetweenRounds round(settings);
+  EXPECT_EQ(round.Plan(), All{});
+  EXPECT_EQ(round.islands.report(0).no_step, NoStep::kTooDear);
+  EXPECT_FALSE(round.islands[0].MayStep());
+}
+
+TEST(StepPlanner, WeighsStepsAgainstWhatIsLeftToDo) {
+  BetweenRounds round(WithPolicy(StepPolicy::kWeighed));
+  for (int i = 0; i < 2; ++i) round.islands[i].seen = {.max = 1e-6, .energy = 1e-6};
+  EXPECT_EQ(round.Plan(), All{});
+  EXPECT_EQ(round.islands.report(0).no_step, NoStep::kSweepsFaster) << "sweeps do the rest";
+
+  // what stood unsolved for long is not met at once
+  for (int i = 0; i < 2; ++i) round.islands[i].seen = {.max = 50, .energy = 100};
+  EXPECT_EQ(round.Plan(), All{});
+  EXPECT_EQ(round.islands.report(0).no_step, NoStep::kSweepsFaster);
+
+  for (int i = 0; i < 2; ++i) round.islands[i].seen = {.max = 0.5, .energy = 1};
+  EXPECT_EQ(round.Plan(), All{0});
+  EXPECT_EQ(round.islands.report(1).no_step, NoStep::kTooDear) << "a box takes few sweeps";
+}
+
+TEST(StepPlanner, PausesWhereStepsFailedOfLate) {
+  BetweenRounds round(WithPolicy(StepPolicy::kWeighed));
+  round.steps.Judge(0, false);
+  EXPECT_EQ(round.Plan(), All{});
+  EXPECT_EQ(round.islands.report(0).no_step, NoStep::kPaused);
+}
+
+TEST(StepPlanner, MakesMoreSweepsInPlaceOfStepsInWholeRounds) {
+  const BetweenRounds weighed(WithPolicy(StepPolicy::kWeighed));
+  const int more = weighed.planner.SweepsInPlace(0) - 100;
+  EXPECT_GE(more, 0);
+  EXPECT_EQ(more % Settings{}.k_gs, 0);
+  const BetweenRounds always(WithPolicy(StepPolicy::kAlways));
+  EXPECT_EQ(always.planner.SweepsInPlace(0), 100);
+}
+
+}  // namespace
+}  // namespace cairn
