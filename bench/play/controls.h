@@ -31,7 +31,8 @@ struct LaneControls {
 
 /// Which world. A change takes effect with a restart.
 struct SceneControls {
-  /// A scene of `cairn list scenes`, "random" for the random world `seed`, or a file *.bullet.
+  /// A scene of `cairn list scenes`, "random" for the random world `seed`, or a file: *.bullet, a
+  /// world that Bullet saved, or *.cairn, a recording.
   std::string scene = "castle";
   int size = 0;  ///< 0: the default of the scene.
   int seed = 0;

@@ -20,8 +20,6 @@ constexpr btScalar kPinForce = btScalar(30 * 9.81);  // of a pin on a body of 1 
 constexpr btScalar kPinErp = btScalar(0.2);
 constexpr btScalar kBallDensity = 600;  // [kg/m^3]
 
-double OrZero(double value) { return std::isnan(value) ? 0 : value; }
-
 }  // namespace
 
 Player::Player(const Controls& controls, const LaneControls& lane) {
@@ -59,6 +57,7 @@ void Player::Apply(const Controls& controls, const LaneControls& lane) {
     cairn()->settings().acceleration =
         lane.acceleration ? Acceleration::kNncg : Acceleration::kNone;
   }
+  lane_ = lane;
   measure_ = controls.measure;
   substeps_ = controls.substeps;
   if (stage_->has_own_steps()) return;
@@ -84,8 +83,9 @@ void Player::Observe() {
 }
 
 void Player::Step(std::optional<std::chrono::nanoseconds> budget) {
-  if (!failure_.empty()) return;
   effort_.budget = entry_->control == cli::Control::kClock ? budget : std::nullopt;
+  if (stage_->recorded() != nullptr) return SolveRecording();
+  if (!failure_.empty()) return;
   btContactSolverInfo info = defaults_;
   contestant_->Begin(effort_, &info);
   stage_->world().solver_info() = info;
@@ -102,7 +102,6 @@ void Player::Step(std::optional<std::chrono::nanoseconds> budget) {
     const std::string fault = writer_.Take();
     saved_ = fault.empty() ? "written " + saved_ : fault;
   }
-  ++frame_;
   failure_ = !contestant_->refusal().empty() ? contestant_->refusal() : watched_->failure();
 }
 
@@ -116,12 +115,11 @@ void Player::Take(std::chrono::nanoseconds all) {
                 .residual = residual_,
                 .energy = bench::TotalEnergy(world),
                 .penetration = bench::MaxPenetration(world),
-                .joint_gap = OrZero(bench::LargestJointGap(world)),
+                .joint_gap = bench::LargestJointGap(world),
                 .sweeps = work.iterations,
                 .steps_kept = work.steps_accepted,
                 .steps_undone = work.steps_restored,
-                .guarded = work.guarded,
-                .contacts = bench::ContactPoints(world)};
+                .guarded = work.guarded};
   if (cairn() != nullptr) {
     const bullet::SubstepTimes times = cairn()->times();
     sample.build_ms = cli::Milliseconds(times.build);
@@ -129,8 +127,36 @@ void Player::Take(std::chrono::nanoseconds all) {
     sample.write_ms = cli::Milliseconds(times.write);
   }
   for (const btRigidBody* body : world.dynamic_bodies()) sample.asleep += !body->isActive();
+  Keep(sample);
+}
+
+void Player::Keep(const Sample& sample) {
   if (history_.size() == kMostHistory) history_.erase(history_.begin());
   history_.push_back(sample);
+  ++frame_;
+}
+
+void Player::SolveRecording() {
+  cli::FrameWorld& recorded = *stage_->recorded();
+  Settings settings = recorded.problem().frame.settings;
+  settings.threads = lane_.threads;
+  settings.steps = lane_.steps && entry_->name != "cairn-pgs";
+  settings.acceleration = lane_.acceleration ? Acceleration::kNncg : Acceleration::kNone;
+  cli::RowLimit limit{.iterations = {}, .time = effort_.budget};
+  if (!limit.time) limit.iterations = lane_.iterations;
+  failure_ = recorded.Solve(*entry_, settings, limit);
+  if (!failure_.empty()) return;
+  if (measure_) residual_ = recorded.Residual();
+  const cli::RowOutcome& outcome = recorded.outcome();
+  Keep({.solver_ms = cli::Milliseconds(recorded.time()),
+        .residual = residual_,
+        .energy = NAN,
+        .penetration = NAN,
+        .joint_gap = NAN,
+        .sweeps = outcome.iterations,
+        .steps_kept = outcome.steps_accepted,
+        .steps_undone = outcome.steps_restored,
+        .guarded = recorded.cairn() ? recorded.cairn()->report().guarded : 0});
 }
 
 double Player::MeanSolverTime() const {
@@ -141,6 +167,7 @@ double Player::MeanSolverTime() const {
 }
 
 void Player::Shoot(const btVector3& from, const btVector3& velocity, double mass) {
+  if (stage_->recorded() != nullptr) return;
   const btScalar volume = btScalar(mass) / kBallDensity;
   const btScalar radius = std::cbrt(volume * 3 / (4 * SIMD_PI));
   btTransform pose = btTransform::getIdentity();
@@ -153,7 +180,7 @@ void Player::Shoot(const btVector3& from, const btVector3& velocity, double mass
 void Player::Grab(int body, const btVector3& at) {
   Release();
   const auto bodies = stage_->world().dynamic_bodies();
-  if (body < 0 || body >= static_cast<int>(bodies.size())) return;
+  if (body < 0 || body >= static_cast<int>(bodies.size()) || stage_->recorded()) return;
   btRigidBody* const held = bodies[body];
   pin_ = std::make_unique<btPoint2PointConstraint>(*held,
                                                    held->getCenterOfMassTransform().inverse() * at);
@@ -187,11 +214,23 @@ int Player::Pick(const btVector3& from, const btVector3& to, btVector3* at) cons
 }
 
 void Player::SaveNext(const std::string& path) {
+  saved_ = "this is a recording already";
+  if (stage_->recorded() != nullptr) return;
   saved_ = path;
   writer_.Ask(path, frame_, cairn(), watched_.get());
 }
 
+const Settings* Player::settings() {
+  if (cli::FrameWorld* const recorded = stage_->recorded()) {
+    return recorded->cairn() == nullptr ? nullptr : &recorded->cairn()->settings();
+  }
+  return cairn() == nullptr ? nullptr : &cairn()->settings();
+}
+
 std::optional<IslandReport> Player::ReportOf(int body) {
+  if (cli::FrameWorld* const recorded = stage_->recorded()) {
+    return recorded->ReportOf(*world().dynamic_bodies()[body]);
+  }
   if (cairn() == nullptr || frame_ == 0) return {};
   const Report& report = cairn()->report();
   const auto bodies = cairn()->problem().bodies;

@@ -20,12 +20,11 @@ struct Sample {
   double world_ms = 0;   ///< The rest of Bullet's step: collisions, islands, motion.
   /// Of solver_ms in Cairn: reading Bullet's objects, solving, writing back.
   double build_ms = 0, solve_ms = 0, write_ms = 0;
-  double residual = 0;     ///< [m/s], of the last step that was measured.
-  double energy = 0;       ///< [J]
-  double penetration = 0;  ///< [m]
-  double joint_gap = 0;    ///< [m], 0 without joints.
+  double residual = 0;  ///< [m/s], of the last step that was measured.
+  /// Of the world [J], [m], [m]. NaN where it is not known: of recordings, without joints.
+  double energy = 0, penetration = 0, joint_gap = 0;
   int sweeps = 0, steps_kept = 0, steps_undone = 0, guarded = 0;
-  int contacts = 0, asleep = 0;  ///< Points, and bodies.
+  int asleep = 0;  ///< Bodies.
 };
 
 /// One world with one solver, which may be changed while it runs.
@@ -42,7 +41,8 @@ class Player {
 
   /// A ball, with a velocity [m/s].
   void Shoot(const btVector3& from, const btVector3& velocity, double mass);
-  /// Pins a body softly where it is at a point in the world; Move() pulls it elsewhere.
+  /// Pins a body softly where it is at a point in the world; Move() pulls it elsewhere. Recordings
+  /// stay as they are.
   void Grab(int body, const btVector3& at);
   void Move(const btVector3& to);
   void Release();
@@ -54,9 +54,11 @@ class Player {
   const std::string& saved() const { return saved_; }
 
   const bench::World& world() const { return stage_->world(); }
-  const Stage& stage() const { return *stage_; }
+  Stage& stage() { return *stage_; }
   const cli::SolverEntry& solver() const { return *entry_; }
   bullet::ConstraintSolver* cairn() { return contestant_->cairn(); }
+  /// What Cairn was told; nullptr of Bullet's solvers.
+  const Settings* settings();
   int frame() const { return frame_; }
   /// Why it stopped; empty while it runs.
   const std::string& failure() const { return failure_; }
@@ -74,7 +76,9 @@ class Player {
  private:
   void SetSolver(const std::string& name);
   void Observe();
+  void SolveRecording();
   void Take(std::chrono::nanoseconds all);
+  void Keep(const Sample& sample);
 
   const cli::SolverEntry* entry_ = nullptr;
   std::unique_ptr<cli::Contestant> contestant_;
@@ -82,6 +86,7 @@ class Player {
   std::unique_ptr<Stage> stage_;
   btContactSolverInfo defaults_;
   cli::Effort effort_;
+  LaneControls lane_;
   int frame_ = 0, substeps_ = 1;
   bool measure_ = true, sleep_ = false, observing_ = false;
   double residual_ = 0;

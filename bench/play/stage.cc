@@ -38,9 +38,23 @@ class RandomStage : public Stage {
   bench::RandomWorld world_;
 };
 
+class RecordedStage : public Stage {
+ public:
+  RecordedStage(const std::string& path, btConstraintSolver* solver)
+      : frame_(cli::LoadRowProblem(path), solver) {}
+  bench::World& world() override { return frame_.world(); }
+  void Step(int, int) override {}
+  bool has_own_steps() const override { return true; }
+  cli::FrameWorld* recorded() override { return &frame_; }
+
+ private:
+  cli::FrameWorld frame_;
+};
+
 }  // namespace
 
 std::unique_ptr<Stage> MakeStage(const SceneControls& scene, btConstraintSolver* solver) {
+  if (scene.scene.ends_with(".cairn")) return std::make_unique<RecordedStage>(scene.scene, solver);
   if (scene.scene == "random") return std::make_unique<RandomStage>(scene.seed, solver);
   const auto seed = static_cast<std::uint64_t>(scene.seed);
   if (scene.scene.ends_with(".bullet")) {

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "play/controls.h"
+#include "rows/frame_world.h"
 #include "scenes/scene.h"
 
 namespace cairn::play {
@@ -18,6 +19,8 @@ class Stage {
   virtual void Step(int frame, int parts) = 0;
   /// Whether length and parts of steps are its own.
   virtual bool has_own_steps() const { return false; }
+  /// What the world is made of, if that is a recording: it does not move.
+  virtual cli::FrameWorld* recorded() { return nullptr; }
 };
 
 /// @pre `solver` outlives the stage, or another one takes its place

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "replay/shape_mesh.h"
 
 namespace cairn::cli {
 namespace {
@@ -11,16 +14,6 @@ namespace {
 constexpr size_t kMostNumbers = 9 * 20000;
 /// Planes end somewhere [m].
 constexpr float kPlaneHalfSide = 100, kPlaneHalfThickness = 0.5F;
-
-class Triangles : public btTriangleCallback {
- public:
-  void processTriangle(btVector3* corners, int, int) override {
-    for (int i = 0; i < 3; ++i) {
-      for (int axis = 0; axis < 3; ++axis) numbers.push_back(float(corners[i][axis]));
-    }
-  }
-  std::vector<float> numbers;
-};
 
 ReplayShape Box(const btVector3& half) {
   return {.kind = "box", .numbers = {float(half.x()), float(half.y()), float(half.z())}};
@@ -42,11 +35,13 @@ ReplayShape Hull(const btConvexHullShape& hull) {
 }
 
 ReplayShape Mesh(const btConcaveShape& mesh) {
-  Triangles triangles;
-  const btVector3 everything(btScalar(1e6), btScalar(1e6), btScalar(1e6));
-  mesh.processAllTriangles(&triangles, -everything, everything);
-  if (triangles.numbers.empty() || triangles.numbers.size() > kMostNumbers) return Bounds(mesh);
-  return {.kind = "triangles", .numbers = std::move(triangles.numbers)};
+  const std::vector<btVector3> corners = TrianglesOf(mesh, btScalar(1e6));
+  if (corners.empty() || 3 * corners.size() > kMostNumbers) return Bounds(mesh);
+  ReplayShape shape{.kind = "triangles", .numbers = {}};
+  for (const btVector3& corner : corners) {
+    for (int axis = 0; axis < 3; ++axis) shape.numbers.push_back(float(corner[axis]));
+  }
+  return shape;
 }
 
 /// The way from y to another axis of Bullet's shapes.

@@ -13,6 +13,11 @@ namespace cairn::cli {
 class CairnRowSolver : public RowSolver {
  public:
   CairnRowSolver(Method method, const LcpOptions& options);
+  CairnRowSolver() = default;
+
+  Settings& settings() { return solver_.settings(); }
+  /// Of the last IterateUntil().
+  const Report& report() const { return report_; }
 
   std::string Prepare(const RowProblem& problem) override;
   void IterateUntil(const RowLimit& limit) override;

@@ -72,8 +72,9 @@ int Main(int count, char** arguments) {
   app.footer(kNotes);
   Words words;
   AppOptions options;
-  app.add_option("scene", words.scene,
-                 "A scene of 'cairn list scenes', 'random', or a file *.bullet; default castle");
+  app.add_option(
+      "scene", words.scene,
+      "A scene of 'cairn list scenes', 'random', or a file *.bullet or *.cairn; default castle");
   const auto add = cli::TextAdder(&app);
   add("--size", &words.size, "Size of the scene", "N");
   add("--seed", &words.seed, "Number of a random world, or of small displacements", "N");

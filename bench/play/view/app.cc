@@ -113,25 +113,25 @@ void App::Picture() {
 }
 
 void App::TakeInput() {
-  if (mouse_.empty()) return;
+  if (options_.frames == 0 && options_.commands.empty()) return;  // there is a person
   ImGuiIO& io = ImGui::GetIO();
   const Mouse mouse = mouse_.front();
   if (mouse_.size() > 1) mouse_.pop_front();
   io.MousePos = {mouse.x, mouse.y};
   for (int button = 0; button < 3; ++button) io.MouseDown[button] = mouse.button == button;
+  io.MouseWheel = std::exchange(wheel_, 0);
+  std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+  if (key_ > 0) io.KeysDown[std::exchange(key_, 0)] = true;
 }
 
 void App::AddKeys(Requests* requests) {
   if (ImGui::GetIO().WantCaptureKeyboard) return;
   Controls& controls = session_.controls();
-  const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
-  controls.paused ^= pressed(GLFW_KEY_SPACE);
-  controls.panels ^= pressed(GLFW_KEY_P);
-  requests->restart |= pressed(GLFW_KEY_R);
-  requests->step |= pressed(GLFW_KEY_N);
-  requests->shoot |= pressed(GLFW_KEY_B);
-  requests->save |= pressed(GLFW_KEY_S);
-  requests->fit |= pressed(GLFW_KEY_V);
+  controls.paused ^= ImGui::IsKeyPressed(' ', false);
+  controls.panels ^= ImGui::IsKeyPressed('P', false);
+  for (const Request& request : kRequests) {
+    if (ImGui::IsKeyPressed(request.key, false)) requests->insert(request.name);
+  }
 }
 
 int App::LaneUnderMouse() const {
@@ -190,17 +190,18 @@ void App::DragOrTurn() {
 }
 
 void App::Obey(const Requests& requests) {
-  if (requests.restart) session_.Restart();
+  if (requests.contains("restart")) session_.Restart();
   session_.Apply();
-  if (requests.fit) camera_.Fit(session_.player(0).world(), areas_[0].aspect());
-  if (requests.shoot) {
+  if (requests.contains("view")) camera_.Fit(session_.player(0).world(), areas_[0].aspect());
+  if (requests.contains("shoot")) {
     const int lane = LaneUnderMouse();
     const btVector3 eye = ToBullet(camera_.eye());
     session_.Shoot(eye, lane < 0 ? ToBullet(camera_.target) - eye : RayUnderMouse(lane));
   }
-  if (requests.save) session_.Save(fmt::format("frame-{:06}.cairn", session_.frame()));
-  if (requests.step || requests.save) session_.Step();
-  if (requests.save) facts_.message = session_.player(session_.worlds() - 1).saved();
+  const bool save = requests.contains("save");
+  if (save) session_.Save(fmt::format("frame-{:06}.cairn", session_.frame()));
+  if (save || requests.contains("step")) session_.Step();
+  if (save) facts_.message = session_.player(session_.worlds() - 1).saved();
 }
 
 double App::Steps(double passed) {
@@ -217,7 +218,8 @@ double App::Steps(double passed) {
   for (int i = 0; i < plan.steps; ++i) {
     session_.Step();
     for (int lane = 0; lane < session_.worlds(); ++lane) {
-      solver_time += 1e-3 * session_.player(lane).history().back().solver_ms;
+      const auto& history = session_.player(lane).history();
+      if (!history.empty()) solver_time += 1e-3 * history.back().solver_ms;
     }
   }
   return solver_time;

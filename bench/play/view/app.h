@@ -68,8 +68,10 @@ class App {
   Facts facts_;
   std::vector<Area> areas_;
   std::deque<std::string> commands_;
-  std::deque<Mouse> mouse_;  ///< Of commands: one for each picture, the last one stays.
-  int waiting_ = 0;          ///< Pictures until the next command.
+  std::deque<Mouse> mouse_ = {{}};  ///< Of commands: one for each picture, the last one stays.
+  float wheel_ = 0;                 ///< Of commands, in the next picture; and a key, as GLFW's.
+  int key_ = 0;
+  int waiting_ = 0;  ///< Pictures until the next command.
   int picture_ = 0, built_ = 0;
   double share_ = 1, last_picture_ = 0;
   double live_ = 0;            ///< Until then steps go by the clock, whatever the commands [s].

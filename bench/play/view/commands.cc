@@ -2,6 +2,7 @@
 // What App does for a file of commands.
 #include <fmt/format.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -29,13 +30,13 @@ json Applied(Player& player) {
                   {"hash", fmt::format("{:016x}", bench::StateHash(world))},
                   {"failure", player.failure()},
                   {"saved", player.saved()}};
-  if (player.cairn() != nullptr) {
-    const Settings& settings = player.cairn()->settings();
-    const bool timed = settings.budget.kind() == Budget::Kind::kTime;
-    applied["budget_ms"] = timed ? 1e-6 * double(settings.budget.time().count()) : -1.0;
-    applied["threads"] = settings.threads;
-    applied["steps"] = settings.steps;
-    applied["acceleration"] = settings.acceleration == Acceleration::kNncg;
+  if (const Settings* const settings = player.settings()) {
+    const bool timed = settings->budget.kind() == Budget::Kind::kTime;
+    applied["budget_ms"] = timed ? 1e-6 * double(settings->budget.time().count()) : -1.0;
+    applied["threads"] = settings->threads;
+    applied["steps"] = settings->steps;
+    applied["acceleration"] = settings->acceleration == Acceleration::kNncg;
+    applied["max_sweeps"] = settings->max_sweeps;
   }
   if (player.history().empty()) return applied;
   const Sample& last = player.history().back();
@@ -112,10 +113,7 @@ void App::Command(const std::string& line) {
   } else if (verb == "frames") {
     numbers(&waiting_);
   } else if (verb == "restart" || verb == "step" || verb == "view" || verb == "shoot") {
-    Obey({.restart = verb == "restart",
-          .step = verb == "step",
-          .shoot = verb == "shoot",
-          .fit = verb == "view"});
+    Obey({verb});
   } else if (verb == "live") {
     numbers(&live_);
     live_ += last_picture_;
@@ -126,7 +124,7 @@ void App::Command(const std::string& line) {
     const auto place = panels_->widgets().find(name);
     if (place == panels_->widgets().end()) throw Failure(kUsage, "no such widget is shown");
     const auto [x, y] = place->second;
-    mouse_ = {{x, y}, {x, y, 0}, {x, y, 0}, {x, y}, {x, y}};
+    mouse_ = {{x, y}, {x, y, 0}, {x, y, 0}, {x, y}, {x, y}, {x, y}};  // what opens is there then
   } else if (verb == "mouse") {
     Mouse mouse;
     numbers(&mouse.x, &mouse.y);
@@ -134,6 +132,14 @@ void App::Command(const std::string& line) {
     mouse.button = text == "left" ? 0 : text == "right" ? 1 : text == "middle" ? 2 : -1;
     mouse_ = {mouse};
     waiting_ = 1;
+  } else if (verb == "wheel") {
+    numbers(&wheel_);
+    waiting_ = 1;
+  } else if (verb == "key") {
+    words >> name;
+    key_ = name == "space" ? ' ' : name.size() == 1 ? std::toupper(name[0]) : 0;
+    if (key_ == 0) throw Failure(kUsage, "write space or a letter");
+    waiting_ = 2;  // pressed, and not any more
   } else if (verb == "save") {
     words >> name;
     session_.Save(name);

@@ -25,19 +25,29 @@ constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoMove | ImGuiWindowF
 /// A curve over time of each world.
 struct Plot {
   const char* title;
-  const char* format;
   double (*value)(const Sample&);
 };
-constexpr Plot kPlots[] = {
-    {"solver", "{:.2f} ms", [](const Sample& s) { return s.solver_ms; }},
-    {"rest of the step", "{:.2f} ms", [](const Sample& s) { return s.world_ms; }},
-    {"residual", "{:.2g} m/s", [](const Sample& s) { return s.residual; }},
-    {"energy", "{:.4g} kJ", [](const Sample& s) { return s.energy / 1000; }},
-    {"penetration", "{:.2f} mm", [](const Sample& s) { return 1000 * s.penetration; }},
-    {"joint gap", "{:.2f} mm", [](const Sample& s) { return 1000 * s.joint_gap; }},
-    {"steps kept - undone", "{:.0f}",
-     [](const Sample& s) { return double(s.steps_kept - s.steps_undone); }},
-    {"islands guarded", "{:.0f}", [](const Sample& s) { return double(s.guarded); }}};
+constexpr Plot kPlots[] = {{"solver, ms", [](const Sample& s) { return s.solver_ms; }},
+                           {"other parts, ms", [](const Sample& s) { return s.world_ms; }},
+                           {"residual, m/s", [](const Sample& s) { return s.residual; }},
+                           {"energy, kJ", [](const Sample& s) { return s.energy / 1000; }},
+                           {"sweeps", [](const Sample& s) { return double(s.sweeps); }},
+                           {"deepest, mm", [](const Sample& s) { return 1000 * s.penetration; }},
+                           {"joint gap, mm", [](const Sample& s) { return 1000 * s.joint_gap; }},
+                           {"steps kept", [](const Sample& s) { return double(s.steps_kept); }},
+                           {"undone", [](const Sample& s) { return double(s.steps_undone); }},
+                           {"guarded", [](const Sample& s) { return double(s.guarded); }}};
+constexpr size_t kColumns = std::size(kPlots) / 2;
+
+/// A number for a narrow place; "-" where it is not known.
+std::string Short(double value) {
+  if (std::isnan(value)) return "-";
+  const double size = std::abs(value);
+  return fmt::format(fmt::runtime(size >= 1000 ? "{:.0f}"
+                                  : size >= 1  ? "{:.3g}"
+                                               : "{:.2g}"),
+                     value);
+}
 
 void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -51,25 +61,27 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
     }
   }
   if (!(high > low)) high = low + 1;
+  list.PushClipRect(at, {at.x + size.x, at.y + size.y});
   float right = at.x + size.x - 6;
+  const float row = size.x < 190 ? 15 : 0;  // of numbers: below the title where it is narrow
   for (int lane = session.worlds() - 1; lane >= 0; --lane) {
     const auto& history = session.player(lane).history();
     std::vector<ImVec2> points;
     for (size_t i = 0; i < history.size(); ++i) {
       const double share = (plot.value(history[i]) - low) / (high - low);
+      if (std::isnan(share)) continue;
       points.push_back({at.x + size.x * static_cast<float>(i) / Player::kMostHistory,
-                        at.y + size.y - 3 - (size.y - 24) * static_cast<float>(share)});
+                        at.y + size.y - 3 - (size.y - 22 - row) * static_cast<float>(share)});
     }
-    list.PushClipRect(at, {at.x + size.x, at.y + size.y});
     list.AddPolyline(points.data(), static_cast<int>(points.size()), kLaneColours[lane], 0, 1.6f);
-    list.PopClipRect();
     if (history.empty()) continue;
-    const std::string text = fmt::format(fmt::runtime(plot.format), plot.value(history.back()));
+    const std::string text = Short(plot.value(history.back()));
     right -= ImGui::CalcTextSize(text.c_str()).x;
-    list.AddText({right, at.y + 3}, kLaneColours[lane], text.c_str());
+    list.AddText({right, at.y + 3 + row}, kLaneColours[lane], text.c_str());
     right -= 8;
   }
   list.AddText({at.x + 6, at.y + 3}, IM_COL32(200, 204, 210, 255), plot.title);
+  list.PopClipRect();
   ImGui::Dummy(size);
 }
 
@@ -84,11 +96,14 @@ std::string TitleOf(Player& player, const LaneControls& lane) {
 /// The island of a body.
 std::string DescribeIsland(Player* player, int body) {
   const bench::IslandFacts facts = bench::FactsOfIsland(player->world(), body);
-  const std::string text = fmt::format(
-      "body {}, island of {} bodies, {:.4g} kg{}\n{} contacts, {} joints\npenetration {:.2f} mm, "
-      "gap {:.2f} mm, speed {:.2g} m/s",
-      body, facts.bodies, facts.mass, facts.asleep ? ", asleep" : "", facts.contacts, facts.joints,
-      1000 * facts.penetration, 1000 * facts.joint_gap, facts.speed);
+  std::string text = fmt::format(
+      "body {}, island of {} bodies, {:.4g} kg{}\n{} contacts, {} joints, speed {:.2g} m/s", body,
+      facts.bodies, facts.mass, facts.asleep ? ", asleep" : "", facts.contacts, facts.joints,
+      facts.speed);
+  if (player->stage().recorded() == nullptr) {
+    text += fmt::format("\ndeepest {:.2f} mm, joint gap {:.2f} mm", 1000 * facts.penetration,
+                        1000 * facts.joint_gap);
+  }
   const std::optional<IslandReport> found = player->ReportOf(body);
   if (!found) return text;
   const IslandReport& report = *found;
@@ -98,6 +113,26 @@ std::string DescribeIsland(Player* player, int body) {
                     report.rows, report.sweeps, report.residual.max, report.residual_before.max,
                     report.steps_accepted, report.steps_restored, cairn::Describe(report.no_step),
                     cairn::Describe(report.stop));
+}
+
+/// Worlds and recordings in the folder of a file, else in the one where the program was started.
+std::vector<std::string> FilesBeside(const std::string& scene) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(scene).parent_path();
+  std::vector<std::string> files;
+  std::error_code none;  // of a folder that cannot be read
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, none)) {
+    const fs::path& path = entry.path();
+    if (path.extension() != ".cairn" && path.extension() != ".bullet") continue;
+    files.push_back((folder / path.filename()).string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Whether there is room for panels beside worlds.
+bool ArePanelsShown(const Controls& controls, int width, int height) {
+  return controls.panels && width >= 640 && height >= 360;
 }
 
 }  // namespace
@@ -118,7 +153,8 @@ Panels::Panels() {
 }
 
 std::vector<Area> Panels::Areas(const Controls& controls, int width, int height) {
-  const int left = controls.panels ? kSide : 0, below = controls.panels ? kStrip : 0;
+  const bool panels = ArePanelsShown(controls, width, height);
+  const int left = panels ? kSide : 0, below = panels ? kStrip : 0;
   const int each = std::max(1, (width - left) / controls.worlds);
   std::vector<Area> areas;
   for (int i = 0; i < controls.worlds; ++i) {
@@ -129,6 +165,7 @@ std::vector<Area> Panels::Areas(const Controls& controls, int width, int height)
 }
 
 void Panels::Mark(const std::string& name) {
+  if (!ImGui::IsItemVisible()) return;  // scrolled away
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   // a box with a label is clicked in the box
   widgets_[name] = {std::min((low.x + high.x) / 2, low.x + 10), (low.y + high.y) / 2};
@@ -140,9 +177,10 @@ bool Panels::Button(const char* title, const std::string& name, float width) {
   return pressed;
 }
 
-void Panels::Control(const std::string& name, const char* label) {
+void Panels::Control(const std::string& name, const char* unit) {
   const Field& field = fields_.at(name);
-  const std::string id = fmt::format("{}##{}", label, name);
+  const std::string label = unit == nullptr ? "" : name.substr(name.find('.') + 1) + unit,
+                    id = label + "##" + name;
   const auto log = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp;
   if (bool* const* on = std::get_if<bool*>(&field.value)) {
     ImGui::Checkbox(id.c_str(), *on);
@@ -159,6 +197,7 @@ void Panels::Control(const std::string& name, const char* label) {
     if (!field.words.empty() && ImGui::BeginCombo(id.c_str(), word->c_str())) {
       for (const std::string_view choice : field.words) {
         if (ImGui::Selectable(std::string(choice).c_str(), *word == choice)) *word = choice;
+        Mark(fmt::format("{}.{}", name, choice));
       }
       ImGui::EndCombo();
     }
@@ -167,23 +206,27 @@ void Panels::Control(const std::string& name, const char* label) {
 }
 
 void Panels::DrawScene(Controls* controls) {
-  ImGui::SetNextItemWidth(150);
-  if (ImGui::BeginCombo("scene", controls->scene.scene.c_str(), ImGuiComboFlags_HeightLarge)) {
-    std::vector<std::string> names = {"random"};
+  ImGui::PushItemWidth(150);
+  if (ImGui::BeginCombo("scenes, files", "choose", ImGuiComboFlags_HeightLarge)) {
+    std::vector<std::string> names = FilesBeside(controls->scene.scene);
+    names.push_back("random");
     for (const bench::SceneInfo& scene : bench::Scenes()) names.emplace_back(scene.name);
     for (const std::string& name : names) {
-      if (!ImGui::Selectable(name.c_str(), controls->scene.scene == name)) continue;
+      const bool chosen = ImGui::Selectable(name.c_str(), controls->scene.scene == name);
+      Mark("scenes." + name);
+      if (!chosen) continue;
       controls->scene = {.scene = name, .size = 0, .seed = controls->scene.seed};
-      requests_.restart = requests_.fit = true;
+      requests_ = {"restart", "view"};
     }
     ImGui::EndCombo();
   }
-  ImGui::PushItemWidth(150);
-  Control("scene", "or file *.bullet");
+  Mark("scenes");
+  Control("scene");
   for (const auto& [label, value] :
-       {std::pair{"size (0: default)", &controls->scene.size}, {"seed", &controls->scene.seed}}) {
+       {std::pair{"size", &controls->scene.size}, {"seed", &controls->scene.seed}}) {
     ImGui::InputInt(label, value);
     *value = std::max(0, *value);
+    Mark(label);
   }
   ImGui::PopItemWidth();
 }
@@ -199,16 +242,15 @@ void Panels::DrawLane(int lane, Controls* controls) {
       UsePreset(preset.name, lane, controls);
     }
   }
-  Control(side + ".solver", "");
+  Control(side + ".solver", nullptr);
   ImGui::PopItemWidth();
-  ImGui::PushItemWidth(64);
-  Control(side + ".iterations", "iterations");
-  Control(side + ".budget", "budget");
-  Control(side + ".budget_ms", "ms");
-  Control(side + ".threads", "threads");
+  ImGui::PushItemWidth(60);
+  for (const char* const name : {".iterations", ".budget", ".budget_ms", ".threads"}) {
+    Control(side + name);
+  }
   ImGui::PopItemWidth();
-  Control(side + ".steps", "steps");
-  Control(side + ".acceleration", "acceleration");
+  Control(side + ".steps");
+  Control(side + ".acceleration");
 }
 
 void Panels::DrawSidebar(Session* session, const Facts& facts, int height) {
@@ -217,34 +259,29 @@ void Panels::DrawSidebar(Session* session, const Facts& facts, int height) {
   ImGui::SetNextWindowSize({kSide, static_cast<float>(height)});
   ImGui::Begin("controls", nullptr, kFixedWindow);
   DrawScene(&controls);
-  const std::tuple<const char*, const char*, bool*> buttons[] = {
-      {"Restart", "restart", &requests_.restart},
-      {"Step", "step", &requests_.step},
-      {"Shoot", "shoot", &requests_.shoot},
-      {"Save", "save", &requests_.save},
-      {"View", "view", &requests_.fit}};
-  for (const auto& [title, name, request] : buttons) {
-    if (Button(title, name, 51)) *request = true;
+  const float width = (ImGui::GetContentRegionAvail().x - 4 * 6) / 5;
+  for (const Request& request : kRequests) {
+    if (Button(request.title, request.name, width)) requests_.insert(request.name);
     ImGui::SameLine();
   }
   ImGui::NewLine();
-  controls.paused |= requests_.step;
+  controls.paused |= requests_.contains("step");
   ImGui::PushItemWidth(110);
-  for (const auto& [name, label] : {std::pair{"worlds", "worlds"},
-                                    {"rate", "steps a second"},
-                                    {"substeps", "substeps"},
-                                    {"speed", "speed of time"},
-                                    {"ball_mass", "ball, kg"},
-                                    {"ball_speed", "ball, m/s"}}) {
-    Control(name, label);
+  for (const auto& [name, unit] : {std::pair{"worlds", ""},
+                                   {"rate", " (steps a second)"},
+                                   {"substeps", ""},
+                                   {"speed", " (of time)"},
+                                   {"ball_mass", " (kg)"},
+                                   {"ball_speed", " (m/s)"},
+                                   {"colours", ""}}) {
+    Control(name, unit);
   }
-  Control("colours", "colours");
   ImGui::PopItemWidth();
   const char* const checks[] = {"paused",  "sleep",  "measure",     "contacts", "joints",
                                 "shadows", "smooth", "interpolate", "panels"};
   for (int i = 0; i < 9; ++i) {
     if (i % 3 != 0) ImGui::SameLine(static_cast<float>(8 + 92 * (i % 3)));
-    Control(checks[i], checks[i]);
+    Control(checks[i]);
   }
   ImGui::Separator();
   if (ImGui::BeginTable("lanes", 2)) {
@@ -266,9 +303,9 @@ void Panels::DrawPlots(const Session& session, int width, int height) {
   ImGui::SetNextWindowPos({kSide, static_cast<float>(height - kStrip)});
   ImGui::SetNextWindowSize({space, kStrip});
   ImGui::Begin("plots", nullptr, kFixedWindow | ImGuiWindowFlags_NoScrollbar);
-  const ImVec2 size((space - 16 - 3 * 6) / 4, (kStrip - 16 - 6) / 2);
+  const ImVec2 size((space - 16) / kColumns - 6, (kStrip - 16 - 6) / 2);
   for (size_t i = 0; i < std::size(kPlots); ++i) {
-    if (i % 4 != 0) ImGui::SameLine();
+    if (i % kColumns != 0) ImGui::SameLine();
     DrawPlot(session, kPlots[i], size);
   }
   ImGui::End();
@@ -280,25 +317,35 @@ void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Are
   const float top = static_cast<float>(height - area.y - area.height);
   ImGui::SetNextWindowPos({static_cast<float>(area.x) + 10, top + 10});
   ImGui::SetNextWindowBgAlpha(0.72f);
-  ImGui::SetNextWindowSizeConstraints({236, 0}, {1000, 1000});
+  const float width = std::min(330.0f, static_cast<float>(area.width) - 20);
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, 1000});
   ImGui::Begin(kSides[lane], nullptr,
                kFixedWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  ImGui::PushTextWrapPos(width - 8);
   ImGui::PushFont(large_);
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLaneColours[lane]), "%s",
                      TitleOf(player, session->controls().lanes[lane]).c_str());
   ImGui::PopFont();
   if (!player.history().empty()) {
     const Sample& last = player.history().back();
-    ImGui::Text("residual %.2g m/s, deepest %.1f mm", last.residual, 1000 * last.penetration);
+    ImGui::Text("residual %s m/s\ndeepest %s mm", Short(last.residual).c_str(),
+                Short(1000 * last.penetration).c_str());
     const std::string parts =
-        fmt::format(" ({:.2f} + {:.2f} + {:.2f})", last.build_ms, last.solve_ms, last.write_ms);
-    ImGui::Text("solver %.2f ms%s", player.MeanSolverTime(), player.cairn() ? parts.c_str() : "");
+        fmt::format(", last {:.2f} + {:.2f} + {:.2f}", last.build_ms, last.solve_ms, last.write_ms);
+    const bool split = player.cairn() != nullptr && player.stage().recorded() == nullptr;
+    ImGui::Text("solver %.2f ms%s", player.MeanSolverTime(), split ? parts.c_str() : "");
+  }
+  if (const cli::FrameWorld* const recorded = player.stage().recorded()) {
+    const Recording& frame = recorded->problem().frame;
+    ImGui::Text("frame %lld, %zu rows\nof %s", static_cast<long long>(frame.frame),
+                recorded->problem().rows.rows.size(), frame.source.c_str());
   }
   if (!player.failure().empty()) ImGui::Text("stopped: %s", player.failure().c_str());
   if (facts.lane == lane) {
     ImGui::Separator();
     ImGui::TextUnformatted(DescribeIsland(&player, facts.body).c_str());
   }
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 
@@ -311,10 +358,9 @@ Requests Panels::Draw(Session* session, const Facts& facts, int width, int heigh
   for (int lane = 0; lane < std::min(session->worlds(), session->controls().worlds); ++lane) {
     DrawLabel(session, lane, facts, areas[lane], height);
   }
-  if (session->controls().panels) {
-    DrawPlots(*session, width, height);
-    DrawSidebar(session, facts, height);
-  }
+  if (!ArePanelsShown(session->controls(), width, height)) return requests_;
+  DrawPlots(*session, width, height);
+  DrawSidebar(session, facts, height);
   return requests_;
 }
 

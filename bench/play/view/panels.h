@@ -2,7 +2,9 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "play/session.h"
@@ -12,10 +14,17 @@ struct ImFont;
 
 namespace cairn::play {
 
-/// What a person asked for in a picture.
-struct Requests {
-  bool restart = false, step = false, shoot = false, save = false, fit = false;
+/// What a button, a key or a command asks for.
+struct Request {
+  const char *name, *title;
+  int key;
 };
+inline constexpr Request kRequests[] = {{"restart", "Restart", 'R'},
+                                        {"step", "Step", 'N'},
+                                        {"shoot", "Shoot", 'B'},
+                                        {"save", "Save", 'S'},
+                                        {"view", "View", 'V'}};
+using Requests = std::set<std::string_view>;  ///< By name.
 
 /// What panels show beside the session.
 struct Facts {
@@ -47,8 +56,8 @@ class Panels {
   void DrawPlots(const Session& session, int width, int height);
   void DrawLabel(Session* session, int lane, const Facts& facts, const Area& area, int height);
   bool Button(const char* title, const std::string& name, float width);
-  /// The widget of a control.
-  void Control(const std::string& name, const char* label);
+  /// The widget of a control, which has its name.
+  void Control(const std::string& name, const char* unit = "");
   void Mark(const std::string& name);
 
   std::map<std::string, Place> widgets_;

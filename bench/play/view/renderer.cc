@@ -53,20 +53,21 @@ void SetMatrix(GLint place, const Matrix4f& matrix) {
 
 /// A mesh in the GPU's memory, with a buffer for its instances.
 struct Renderer::GpuMesh {
-  explicit GpuMesh(const Mesh& mesh) : vertices(static_cast<GLsizei>(mesh.size())) {
+  explicit GpuMesh(const std::vector<cli::Vertex>& mesh)
+      : vertices(static_cast<GLsizei>(mesh.size())) {
     glGenVertexArrays(1, &array);
     glGenBuffers(2, buffers);
     glBindVertexArray(array);
     glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.size() * sizeof(Vertex)),
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.size() * sizeof(cli::Vertex)),
                  mesh.data(), GL_STATIC_DRAW);
     const auto attribute = [](GLuint place, GLint floats, size_t stride, size_t at) {
       glEnableVertexAttribArray(place);
       glVertexAttribPointer(place, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
                             reinterpret_cast<const void*>(at));
     };
-    attribute(0, 3, sizeof(Vertex), offsetof(Vertex, position));
-    attribute(1, 3, sizeof(Vertex), offsetof(Vertex, normal));
+    attribute(0, 3, sizeof(cli::Vertex), offsetof(cli::Vertex, position));
+    attribute(1, 3, sizeof(cli::Vertex), offsetof(cli::Vertex, normal));
     glBindBuffer(GL_ARRAY_BUFFER, buffers[1]);
     for (GLuint i = 0; i < 5; ++i) {  // three rows, scale, colour
       attribute(2 + i, 4, sizeof(Instance), i * 4 * sizeof(float));
@@ -89,8 +90,8 @@ Renderer::Renderer()
       depth_(kBodyVertex, kDepthFragment),
       sky_(kSkyVertex, kSkyFragment),
       line_(kLineVertex, kLineFragment),
-      box_(std::make_unique<GpuMesh>(BoxMesh())),
-      ball_(std::make_unique<GpuMesh>(BallMesh())) {
+      box_(std::make_unique<GpuMesh>(cli::MeshOf(btBoxShape({1, 1, 1})))),
+      ball_(std::make_unique<GpuMesh>(cli::MeshOf(btSphereShape(1)))) {
   shadow_.MakeShadow(kShadowSize);
   glGenVertexArrays(1, &line_array_);
   glGenBuffers(1, &line_buffer_);
@@ -204,7 +205,7 @@ void Renderer::AddShape(const btCollisionShape& shape, const btTransform& pose,
   }
   if (mesh == nullptr) {
     std::unique_ptr<GpuMesh>& own = own_[&shape];
-    if (!own) own = std::make_unique<GpuMesh>(MeshOf(shape));
+    if (!own) own = std::make_unique<GpuMesh>(cli::MeshOf(shape));
     mesh = own.get();
   }
   Instance& instance = instances_[mesh].emplace_back();

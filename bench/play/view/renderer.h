@@ -11,7 +11,7 @@
 #include "play/player.h"
 #include "play/view/camera.h"
 #include "play/view/gl.h"
-#include "play/view/shapes.h"
+#include "replay/shape_mesh.h"
 
 namespace cairn::play {
 

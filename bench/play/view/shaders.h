@@ -19,7 +19,7 @@ flat out vec3 half_size;
 flat out vec4 paint;
 void main() {
   at_body = position * scale.xyz;
-  vec3 n = normalize(normal / scale.xyz);
+  vec3 n = normalize((colour.a == 2.0 ? position : normal) / scale.xyz);  // balls are round
   vec4 p = vec4(at_body, 1);
   at_world = vec3(dot(row0, p), dot(row1, p), dot(row2, p));
   normal_world = vec3(dot(row0.xyz, n), dot(row1.xyz, n), dot(row2.xyz, n));

@@ -257,6 +257,101 @@ frames 2
                                     text=True, timeout=120)
             self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_recordings_are_chosen_and_solved_in_the_panel(self):
+        self.script("frames 8\nsave DIR/one.cairn\nset scene tower\nset worlds 1\nrestart\nframes 20\n"
+                    "save DIR/two.cairn\n", "bridge")
+        first, second = self.path("one-right.cairn"), self.path("two.cairn")
+        for state in (self.script("frames 3\n", first),
+                      self.script(f"frames 1\nclick scenes\nclick scenes.{first}\nframes 3\n", second)):
+            left, right = state["worlds"]
+            self.assertEqual(state["controls"]["scene"], first)
+            self.assertEqual((left["bodies"], right["constraints"]), (52, 82))
+            self.assertEqual((left["failure"], right["failure"]), ("", ""))
+            self.assertLess(right["last"]["residual"], left["last"]["residual"] / 2)
+            self.assertGreater(right["last"]["steps_kept"], 0)
+            self.assertIsNone(right["last"]["penetration"])  # not recorded
+        state = self.script("""frames 1
+state DIR/before.json
+set left.iterations 500
+click right.steps
+click right.budget
+click right.budget.fixed
+set contacts on
+set joints on
+frames 2
+key b
+key s
+""", first)
+        left, right = state["worlds"]
+        self.assertLess(left["last"]["residual"], self.state("before.json")["worlds"][0]["last"]["residual"] / 2)
+        self.assertEqual((right["steps"], right["budget_ms"]), (False, 2))
+        self.assertEqual((right["bodies"], right["last"]["steps_kept"]), (52, 0))  # nothing is shot into it
+        self.assertIn("recording already", state["message"])
+
+    def test_recordings_that_are_none_are_refused(self):
+        self.script("frames 2\nset worlds 1\nsave DIR/whole.cairn\n", "tower")
+        with open(self.path("whole.cairn"), "rb") as file:
+            data = file.read()
+        for name, content, words in (("cut", data[:2000], "was cut"), ("text", b"text\n" * 500, "no recording"),
+                                     ("altered", data[:1000] + b"!" + data[1001:], "altered")):
+            with open(self.path(name + ".cairn"), "wb") as file:
+                file.write(content)
+            self.assertIn(words, self.refused(BAD_INPUT, self.path(name + ".cairn")))
+            # in the panel what is shown stays, and the reason is told
+            state = self.script(f"frames 1\nclick scenes\nclick scenes.{self.path(name + '.cairn')}\nframes 2\n",
+                                self.path("whole.cairn"))
+            self.assertIn(words, state["message"])
+            self.assertEqual(state["worlds"][0]["bodies"], 30)
+        self.assertIn("No such file", self.refused(BAD_INPUT, self.path("none.cairn")))
+
+    def test_keys_do_what_buttons_do(self):
+        self.script("""frames 3
+key space
+state DIR/paused.json
+key n
+state DIR/step.json
+key b
+state DIR/shot.json
+key p
+state DIR/bare.json
+key p
+camera 1 1 3
+key v
+state DIR/view.json
+key space
+mouse 400 200
+wheel 5
+state DIR/near.json
+key r
+""", "tower")
+        paused, step, shot, bare, view, near, end = (
+            self.state(name + ".json") for name in ("paused", "step", "shot", "bare", "view", "near", "end"))
+        self.assertTrue(paused["controls"]["paused"])
+        self.assertEqual(step["worlds"][0]["frame"], paused["worlds"][0]["frame"] + 1)
+        self.assertEqual(shot["worlds"][1]["bodies"], 31)
+        self.assertEqual((bare["controls"]["panels"], bare.get("widgets")), (False, None))
+        self.assertLess(view["camera"][0], 0.9)
+        self.assertGreater(view["camera"][2], 4)
+        self.assertAlmostEqual(near["camera"][2] / view["camera"][2], 0.9 ** 5, 3)
+        self.assertFalse(end["controls"]["paused"])
+        self.assertEqual(end["worlds"][1]["bodies"], 30)  # begun again
+
+    def test_words_are_chosen_with_the_mouse(self):
+        state = self.script("frames 1\nclick left.solver\nclick left.solver.bullet-nncg\nclick colours\n"
+                            "click colours.islands\nclick scenes\nclick scenes.random\nframes 2\n", "tower")
+        self.assertEqual(state["worlds"][0]["solver"], "bullet-nncg")
+        self.assertEqual(state["controls"]["colours"], "islands")
+        self.assertEqual((state["controls"]["scene"], state["message"]), ("random", ""))
+
+    def test_small_windows_keep_to_their_places(self):
+        for size, panels in (("120x100", False), ("640x360", True), ("500x700", False)):
+            script = self.path("small")
+            with open(script, "w", encoding="utf-8") as file:
+                file.write(f"frames 2\nmouse 60 50\nframes 1\nstate {self.path('small.json')}\n")
+            result = play("wall", "--window", size, "--commands", script)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual("restart" in (self.state("small.json").get("widgets") or []), panels, size)
+
     def test_a_video_is_numbered_pictures(self):
         self.assertEqual(play("tower", "--frames", "3", "--video", self.path("video")).returncode, 0)
         self.assertEqual(sorted(os.listdir(self.path("video"))), [f"{i:06}.png" for i in range(3)])
