@@ -352,6 +352,55 @@ key r
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertEqual("restart" in (self.state("small.json").get("widgets") or []), panels, size)
 
+    def test_every_scene_is_drawn(self):
+        listed = subprocess.run([TOOL, "list", "scenes"], capture_output=True, text=True, timeout=60, check=True)
+        scenes = [line.split()[0] for line in listed.stdout.splitlines()] + ["random"]
+        self.assertGreater(len(scenes), 20)
+        self.script("".join(f"set scene {scene}\nrestart\nview\nframes 2\nscreenshot DIR/{scene}.png\n"
+                            f"state DIR/{scene}.json\n" for scene in scenes), "wall")
+        for scene in scenes:
+            state = self.state(scene + ".json")
+            self.assertEqual([world["failure"] for world in state["worlds"]], ["", ""], scene)
+            self.assertEqual(state["worlds"][0]["bodies"], state["worlds"][1]["bodies"])
+            self.assertLess(state["picture"]["draw_calls"], 20 + state["picture"]["bodies"] // 2, scene)
+            self.assertGreater(len(set(area(read_png(self.path(scene + ".png")), *RIGHT))), 100, scene)
+
+    def test_what_is_switched_on_is_drawn(self):
+        names = ("contacts", "joints", "shadows", "smooth", "colours")
+        self.script("set worlds 1\nset paused on\nframes 1\nscreenshot DIR/plain.png\n" + "".join(
+            f"set {name} {on}\nframes 1\nscreenshot DIR/{name}.png\nset {name} {off}\n"
+            for name, on, off in [(name, "on", "off") for name in names[:-1]] + [("colours", "islands", "stone")]) +
+            "mouse 500 190\nframes 2\nscreenshot DIR/marked.png\n", "ragdolls", "--frames", "1000000")
+        pictures = {name: area(read_png(self.path(name + ".png")), *LEFT) for name in names + ("plain", "marked")}
+        for name in names + ("marked",):
+            self.assertNotEqual(pictures[name], pictures["plain"], name)
+        arms = (0xc7, 0xa6, 0xff)  # of joints, in examples/debug_draw.h
+        self.assertGreater(pictures["joints"].count(arms), 100)
+        self.assertEqual(pictures["plain"].count(arms), 0)
+
+    def test_impulses_are_drawn_and_sleeping_bodies_are_blue(self):
+        state = self.script("""set worlds 1
+set contacts on
+frames 30
+screenshot DIR/contacts.png
+set contacts off
+set sleep on
+frames 1
+screenshot DIR/awake.png
+frames 150
+screenshot DIR/asleep.png
+""", "wall", "--size", "3")
+        self.assertEqual(state["worlds"][0]["last"]["asleep"], state["worlds"][0]["bodies"])
+        contacts, awake, asleep = (area(read_png(self.path(name + ".png")), *LEFT)
+                                   for name in ("contacts", "awake", "asleep"))
+        for colour in ((0xff, 0xd7, 0x5e), (0x4c, 0xd9, 0x64)):  # points and impulses
+            self.assertGreater(contacts.count(colour), 20)
+            self.assertEqual(awake.count(colour), 0)
+        # stones are red rather than blue; the sky is neither far apart
+        stones, blue = (sum(p[0] > p[2] + 30 for p in rows) for rows in (awake, asleep))
+        self.assertGreater(stones, 2000)
+        self.assertEqual(blue, 0)
+
     def test_a_video_is_numbered_pictures(self):
         self.assertEqual(play("tower", "--frames", "3", "--video", self.path("video")).returncode, 0)
         self.assertEqual(sorted(os.listdir(self.path("video"))), [f"{i:06}.png" for i in range(3)])
