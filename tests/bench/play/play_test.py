@@ -81,6 +81,10 @@ def differences(rows):
     return [max(abs(x - y) for x, y in zip(a, b)) for a, b in zip(area(rows, *LEFT), area(rows, *RIGHT))]
 
 
+def count_near(pixels, colour):
+    return sum(max(abs(x - y) for x, y in zip(pixel, colour)) < 6 for pixel in pixels)
+
+
 class PlayTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -367,16 +371,16 @@ key r
 
     def test_what_is_switched_on_is_drawn(self):
         names = ("contacts", "joints", "shadows", "smooth", "colours")
-        self.script("set worlds 1\nset paused on\nframes 1\nscreenshot DIR/plain.png\n" + "".join(
+        self.script("set worlds 1\nframes 60\nset paused on\nframes 1\nscreenshot DIR/plain.png\n" + "".join(
             f"set {name} {on}\nframes 1\nscreenshot DIR/{name}.png\nset {name} {off}\n"
-            for name, on, off in [(name, "on", "off") for name in names[:-1]] + [("colours", "islands", "stone")]) +
-            "mouse 500 190\nframes 2\nscreenshot DIR/marked.png\n", "ragdolls", "--frames", "1000000")
-        pictures = {name: area(read_png(self.path(name + ".png")), *LEFT) for name in names + ("plain", "marked")}
-        for name in names + ("marked",):
-            self.assertNotEqual(pictures[name], pictures["plain"], name)
+            for name, on, off in [(name, "on", "off") for name in names[:-1]] + [("colours", "islands", "stone")]),
+            "ragdolls", "--size", "4")
+        pictures = {name: area(read_png(self.path(name + ".png")), *LEFT) for name in names + ("plain",)}
+        for name in names:
+            self.assertTrue(pictures[name] != pictures["plain"], name)
         arms = (0xc7, 0xa6, 0xff)  # of joints, in examples/debug_draw.h
-        self.assertGreater(pictures["joints"].count(arms), 100)
-        self.assertEqual(pictures["plain"].count(arms), 0)
+        self.assertGreater(count_near(pictures["joints"], arms), 100)
+        self.assertEqual(count_near(pictures["plain"], arms), 0)
 
     def test_impulses_are_drawn_and_sleeping_bodies_are_blue(self):
         state = self.script("""set worlds 1
@@ -394,8 +398,8 @@ screenshot DIR/asleep.png
         contacts, awake, asleep = (area(read_png(self.path(name + ".png")), *LEFT)
                                    for name in ("contacts", "awake", "asleep"))
         for colour in ((0xff, 0xd7, 0x5e), (0x4c, 0xd9, 0x64)):  # points and impulses
-            self.assertGreater(contacts.count(colour), 20)
-            self.assertEqual(awake.count(colour), 0)
+            self.assertGreater(count_near(contacts, colour), 20)
+            self.assertEqual(count_near(awake, colour), 0)
         # stones are red rather than blue; the sky is neither far apart
         stones, blue = (sum(p[0] > p[2] + 30 for p in rows) for rows in (awake, asleep))
         self.assertGreater(stones, 2000)
