@@ -165,7 +165,7 @@ void App::Hover() {
       session_.player(facts_.lane).Pick(eye, eye + 1000 * RayUnderMouse(facts_.lane), &at);
   if (facts_.body < 0) {
     facts_.lane = -1;
-  } else if (ImGui::IsMouseClicked(0)) {
+  } else if (ImGui::IsMouseClicked(0) && !session_.player(facts_.lane).stage().recorded()) {
     session_.Grab(facts_.body, at);
     grip_ = static_cast<float>((at - eye).length());
   }

@@ -95,13 +95,16 @@ void App::ReadCommands() {
 void App::Command(const std::string& line) {
   std::istringstream words(line);
   std::string verb, name, text;
-  words >> verb;
+  words >> verb >> std::ws;
+  std::getline(words, text);  // all that follows: a path may have spaces
+  words = std::istringstream(text);
   const auto numbers = [&words](auto*... values) {
     if (!(words >> ... >> *values)) throw Failure(kUsage, "numbers are missing");
   };
   if (verb.empty() || verb.starts_with("#")) return;
   if (verb == "set") {
-    words >> name >> text;
+    words >> name >> std::ws;
+    if (!std::getline(words, text)) text.clear();
     for (const Field& field : Fields(&session_.controls())) {
       if (field.name == name) return Set(field, text);
     }
@@ -120,37 +123,32 @@ void App::Command(const std::string& line) {
   } else if (verb == "camera") {
     numbers(&camera_.yaw, &camera_.pitch, &camera_.distance);
   } else if (verb == "click") {
-    words >> name;
-    const auto place = panels_->widgets().find(name);
+    const auto place = panels_->widgets().find(text);
     if (place == panels_->widgets().end()) throw Failure(kUsage, "no such widget is shown");
     const auto [x, y] = place->second;
     mouse_ = {{x, y}, {x, y, 0}, {x, y, 0}, {x, y}, {x, y}, {x, y}};  // what opens is there then
   } else if (verb == "mouse") {
     Mouse mouse;
     numbers(&mouse.x, &mouse.y);
-    words >> text;
-    mouse.button = text == "left" ? 0 : text == "right" ? 1 : text == "middle" ? 2 : -1;
+    words >> name;
+    mouse.button = name == "left" ? 0 : name == "right" ? 1 : name == "middle" ? 2 : -1;
     mouse_ = {mouse};
     waiting_ = 1;
   } else if (verb == "wheel") {
     numbers(&wheel_);
     waiting_ = 1;
   } else if (verb == "key") {
-    words >> name;
-    key_ = name == "space" ? ' ' : name.size() == 1 ? std::toupper(name[0]) : 0;
+    key_ = text == "space" ? ' ' : text.size() == 1 ? std::toupper(text[0]) : 0;
     if (key_ == 0) throw Failure(kUsage, "write space or a letter");
     waiting_ = 2;  // pressed, and not any more
   } else if (verb == "save") {
-    words >> name;
-    session_.Save(name);
+    session_.Save(text);
     session_.Step();
   } else if (verb == "screenshot") {
-    words >> name;
-    WritePng(name, renderer_->picture());
+    WritePng(text, renderer_->picture());
   } else if (verb == "state") {
-    words >> name;
     session_.Apply();
-    cli::WriteFile(name, State());
+    cli::WriteFile(text, State());
   } else {
     throw Failure(kUsage, "unknown command; docs/play.md has all of them");
   }

@@ -332,7 +332,7 @@ void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Are
                 Short(1000 * last.penetration).c_str());
     const std::string parts =
         fmt::format(", last {:.2f} + {:.2f} + {:.2f}", last.build_ms, last.solve_ms, last.write_ms);
-    const bool split = player.cairn() != nullptr && player.stage().recorded() == nullptr;
+    const bool split = player.cairn() && !player.stage().recorded() && width > 300;
     ImGui::Text("solver %.2f ms%s", player.MeanSolverTime(), split ? parts.c_str() : "");
   }
   if (const cli::FrameWorld* const recorded = player.stage().recorded()) {

@@ -263,8 +263,8 @@ frames 2
 
     def test_recordings_are_chosen_and_solved_in_the_panel(self):
         self.script("frames 8\nsave DIR/one.cairn\nset scene tower\nset worlds 1\nrestart\nframes 20\n"
-                    "save DIR/two.cairn\n", "bridge")
-        first, second = self.path("one-right.cairn"), self.path("two.cairn")
+                    "save DIR/number two.cairn\n", "bridge")
+        first, second = self.path("one-right.cairn"), self.path("number two.cairn")
         for state in (self.script("frames 3\n", first),
                       self.script(f"frames 1\nclick scenes\nclick scenes.{first}\nframes 3\n", second)):
             left, right = state["worlds"]
