@@ -36,6 +36,7 @@ struct SceneControls {
   std::string scene = "castle";
   int size = 0;  ///< 0: the default of the scene.
   int seed = 0;
+  friend bool operator==(const SceneControls&, const SceneControls&) = default;
 };
 
 /// Everything that a person can set.

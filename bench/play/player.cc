@@ -221,10 +221,9 @@ void Player::SaveNext(const std::string& path) {
 }
 
 const Settings* Player::settings() {
-  if (cli::FrameWorld* const recorded = stage_->recorded()) {
-    return recorded->cairn() == nullptr ? nullptr : &recorded->cairn()->settings();
-  }
-  return cairn() == nullptr ? nullptr : &cairn()->settings();
+  cli::FrameWorld* const recorded = stage_->recorded();
+  if (recorded == nullptr) return cairn() == nullptr ? nullptr : &cairn()->settings();
+  return recorded->cairn() == nullptr ? nullptr : &recorded->cairn()->settings();
 }
 
 std::optional<IslandReport> Player::ReportOf(int body) {

@@ -17,14 +17,14 @@ std::chrono::nanoseconds Nanoseconds(double ms) {
 
 Session::Session(const Controls& controls) : controls_(controls) { Restart(); }
 
-void Session::Restart() {
+bool Session::Restart() {
   std::vector<std::unique_ptr<Player>> players;
   for (int lane = 0; lane < controls_.worlds; ++lane) {
     players.push_back(std::make_unique<Player>(controls_, controls_.lanes[lane]));
   }
   players_ = std::move(players);
-  built_ = controls_.scene;
   ++generation_;
+  return std::exchange(built_, controls_.scene) != controls_.scene;
 }
 
 void Session::Apply() {

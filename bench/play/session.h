@@ -25,8 +25,9 @@ class Session {
 
   /// One step of each world, paused or not.
   void Step();
-  /// Builds the worlds anew. @throws cli::Failure as above; then all stays as it was
-  void Restart();
+  /// Builds the worlds anew. @return whether those of another scene
+  /// @throws cli::Failure as above; then all stays as it was
+  bool Restart();
   /// Hands over the controls without a step.
   void Apply();
 

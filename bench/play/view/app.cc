@@ -190,9 +190,11 @@ void App::DragOrTurn() {
 }
 
 void App::Obey(const Requests& requests) {
-  if (requests.contains("restart")) session_.Restart();
+  const bool again = requests.contains("restart"), another = again && session_.Restart();
+  if (again) facts_.message.clear();
   session_.Apply();
-  if (requests.contains("view")) camera_.Fit(session_.player(0).world(), areas_[0].aspect());
+  if (another || requests.contains("view"))
+    camera_.Fit(session_.player(0).world(), areas_[0].aspect());
   if (requests.contains("shoot")) {
     const int lane = LaneUnderMouse();
     const btVector3 eye = ToBullet(camera_.eye());

@@ -42,11 +42,7 @@ constexpr size_t kColumns = std::size(kPlots) / 2;
 /// A number for a narrow place; "-" where it is not known.
 std::string Short(double value) {
   if (std::isnan(value)) return "-";
-  const double size = std::abs(value);
-  return fmt::format(fmt::runtime(size >= 1000 ? "{:.0f}"
-                                  : size >= 1  ? "{:.3g}"
-                                               : "{:.2g}"),
-                     value);
+  return fmt::format(fmt::runtime(std::abs(value) >= 1 ? "{:.4g}" : "{:.2g}"), value);
 }
 
 void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
@@ -90,6 +86,7 @@ std::string TitleOf(Player& player, const LaneControls& lane) {
     if (lane.budget == kFixed) return fmt::format("{}, {:.3g} ms", lane.solver, lane.budget_ms);
     return lane.solver + (lane.budget == kMatch ? ", in the other's time" : ", what is left");
   }
+  if (player.solver().control == cli::Control::kNone) return lane.solver;
   return fmt::format("{}, {} iterations", lane.solver, lane.iterations);
 }
 
@@ -216,7 +213,7 @@ void Panels::DrawScene(Controls* controls) {
       Mark("scenes." + name);
       if (!chosen) continue;
       controls->scene = {.scene = name, .size = 0, .seed = controls->scene.seed};
-      requests_ = {"restart", "view"};
+      requests_ = {"restart"};
     }
     ImGui::EndCombo();
   }
