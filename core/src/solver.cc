@@ -11,6 +11,7 @@
 
 #include "cairn/detail/threads.h"
 #include "cycle/block_solver.h"
+#include "cycle/quiet_bodies.h"
 #include "cycle/substeps.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
@@ -211,13 +212,15 @@ struct Solver::Impl {
   /// What was learnt. The next Attempt makes it anew.
   void Forget() {
     blocks.reset();
+    quiet.Forget();
     block_prices = kBlockPrices;
     row_prices = kRowPrices;
   }
   /// See Solver::Solve().
   void Solve(const ContactProblem& problem, const Impulses& impulses,
              std::span<Velocity> velocities, Report* report);
-  /// In one part, or the parts that settings ask for. Both: @pre sizes fit
+  /// In one part, or the parts that settings ask for, each once more without what takes back errors
+  /// if they ask for that. Both: @pre sizes fit
   void SolveAtOnce(const ContactProblem& problem, const Impulses& impulses,
                    std::span<Velocity> velocities, Report* report);
   void SolveInParts(const ContactProblem& problem, const Impulses& impulses,
@@ -244,6 +247,7 @@ struct Solver::Impl {
   WorkPrices block_prices = kBlockPrices, row_prices = kRowPrices;
   detail::Threads threads;
   Substeps substeps;
+  QuietBodies quiet;
   Report part_report;
   bool in_parts = false;  ///< the last Solve() was, and succeeded
   std::unique_ptr<BlockSolver> blocks;
@@ -350,11 +354,12 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   }
   if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
   if (!report->ok()) return;
-  if (settings.substeps == 1) {
+  if (settings.substeps == 1 && !settings.relax) {
     SolveAtOnce(problem, impulses, velocities, report);
   } else {
     SolveInParts(problem, impulses, velocities, report);
   }
+  if (report->ok()) quiet.Tell(problem, velocities, settings.tuning.quiet_speed, report);
 }
 
 void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& impulses,
@@ -368,20 +373,28 @@ void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& i
   }
   if (!report->ok()) return;
   const Budget whole = settings.budget;
-  for (substeps.Begin(problem, impulses, settings.substeps); !substeps.done(); substeps.Advance()) {
+  // of how many solves that are left, this is the first
+  const auto solve_part = [&](int left) {
     const auto elapsed = whole.kind() == Budget::Kind::kTime ? ReadClock(clock) - begin
                                                              : std::chrono::nanoseconds(0);
-    settings.budget = ShareOf(whole, *report, elapsed, substeps.left());
+    settings.budget = ShareOf(whole, *report, elapsed, left);
     ForgetReport(&part_report);
     SolveAtOnce(substeps.problem(), substeps.impulses(), substeps.velocities(), &part_report);
-    if (!part_report.ok()) {
-      // what is wrong came of numbers that were sound: they did not fit
-      report->islands.clear();
-      report->status = Status::kOverflow;
-      report->stop = StopReason::kBrokeDown;
-      return;
+    if (part_report.ok()) return Add(part_report, report);
+    // what is wrong came of numbers that were sound: they did not fit
+    report->islands.clear();
+    report->status = Status::kOverflow;
+    report->stop = StopReason::kBrokeDown;
+  };
+  for (substeps.Begin(problem, impulses, settings.substeps); !substeps.done(); substeps.Advance()) {
+    const bool relaxes = settings.relax && substeps.HasErrors(settings.tolerance);
+    const int left = substeps.left() * (relaxes ? 2 : 1);
+    solve_part(left);
+    if (relaxes && report->ok()) {
+      substeps.Relax();
+      solve_part(left - 1);
     }
-    Add(part_report, report);
+    if (!report->ok()) return;
   }
   substeps.Write(impulses, velocities);
   in_parts = true;

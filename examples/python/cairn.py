@@ -26,14 +26,14 @@ TWIST = numpy.dtype([("spinning", f32), ("rolling", f32), ("mostSpinning", f32),
                      ("mostRolling", f32)], align=True)
 TWIST_IMPULSE = numpy.dtype([("spinning", f32), ("rolling", f32, 2)], align=True)
 MANIFOLD = numpy.dtype([("bodyA", i32), ("bodyB", i32), ("firstPoint", i32), ("points", "i1"),
-                        ("tangents", "i1"), ("soft", "?"), ("twists", "?"), ("sweepLimit", i32)],
-                       align=True)
+                        ("tangents", "i1"), ("soft", "?"), ("twists", "?"), ("speeds", "u1"),
+                        ("sweepLimit", i32)], align=True)
 JOINT_ROW = numpy.dtype([("linearA", f32, 3), ("target", f32), ("angularA", f32, 3),
                          ("compliance", f32), ("linearB", f32, 3), ("lo", f32),
                          ("angularB", f32, 3), ("hi", f32)], align=True)
 JOINT = numpy.dtype([("bodyA", i32), ("bodyB", i32), ("firstRow", i32), ("rows", i32),
-                     ("bounded", "u4"), ("angular", "u4"), ("damping", f32), ("soft", "?"),
-                     ("opposite", "?"), ("sweepLimit", i32)], align=True)
+                     ("bounded", "u4"), ("angular", "u4"), ("errors", "u4"), ("damping", f32),
+                     ("soft", "?"), ("opposite", "?"), ("sweepLimit", i32)], align=True)
 
 
 def struct(name, *fields):
@@ -53,8 +53,8 @@ Problem = struct("Problem", *[(name, pointer) for name in
 Solution = struct("Solution", *[(name, pointer) for name in
                                 "points twists jointRows velocities".split()])
 Settings = struct("Settings", ("method", c_int), ("path", c_int), ("kGs", c_i32), ("kSm", c_i32),
-                  ("steps", c_bool), ("maxSweeps", c_i32), ("substeps", c_i32),
-                  ("tolerance", c_double),
+                  ("steps", c_bool), ("relax", c_bool), ("maxSweeps", c_i32), ("substeps", c_i32),
+                  ("tolerance", c_double), ("quietSpeed", c_double),
                   ("budgetKind", c_int), ("budget", c_i64), ("minSweeps", c_i32),
                   ("threads", c_i32), ("submit", pointer), ("context", pointer))
 Report = struct("Report", ("status", c_int), *counts("badBody badManifold badJoint"),
@@ -62,8 +62,8 @@ Report = struct("Report", ("status", c_int), *counts("badBody badManifold badJoi
                 ("residualAngular", c_double),
                 *counts("sweeps factorisations stepsAccepted stepsRestored guarded islandCount"),
                 ("work", c_i64), ("elapsed", c_i64))
-Island = struct("Island", *counts("firstBody bodies rows sweeps factorisations stepsAccepted "
-                                  "stepsRestored"),
+Island = struct("Island", *counts("firstBody bodies rows quiet"), ("speed", c_double),
+                ("spin", c_double), *counts("sweeps factorisations stepsAccepted stepsRestored"),
                 ("stop", c_int), ("guarded", c_bool), ("residualBefore", c_double),
                 ("residual", c_double), ("residualAngular", c_double))
 Layout = struct("Layout", *[(name, ctypes.c_uint32) for name in (

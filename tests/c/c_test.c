@@ -332,6 +332,58 @@ static void SaysHowFastBodiesWereOnAverage(void) {
   cairnDestroySolver(solver);
 }
 
+/* What a game puts to sleep: the two of the scene rest, then one is thrown up. */
+static void SaysForHowLongIslandsWereQuiet(void) {
+  CairnSolver* solver = MakeSolver();
+  Scene scene;
+  MakeScene(&scene);
+  CairnIsland island;
+  for (int step = 1; step <= 3; ++step) {
+    CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+    CHECK(cairnGetIsland(solver, 0, &island) == cairnOk);
+    CHECK(island.quiet == step && island.speed < 0.02 && island.spin < 0.02);
+  }
+  scene.bodies[0].velocity.linear[1] = scene.bodies[1].velocity.linear[1] = 3;
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  CHECK(cairnGetIsland(solver, 0, &island) == cairnOk);
+  CHECK(island.quiet == 0 && fabs(island.speed - (3 - 9.81 / 60)) < 2e-3);
+  CairnSettings settings = cairnDefaultSettings();
+  CHECK(settings.quietSpeed == 0.05);
+  settings.quietSpeed = 5;
+  CHECK(cairnSetSettings(solver, &settings) == cairnOk);
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  CHECK(cairnGetIsland(solver, 0, &island) == cairnOk && island.quiet == 1);
+  cairnDestroySolver(solver);
+}
+
+/* Depth, and a joint that gapes: both move their bodies by 0.3 m/s, and leave them at rest. */
+static void TakesErrorsBackWithoutVelocity(void) {
+  CairnSettings settings = cairnDefaultSettings();
+  settings.tolerance = 1e-4;
+  Scene scene;
+  for (int pass = 0; pass < 4; ++pass) {
+    settings.relax = pass > 0;
+    const bool kept = pass > 1; /* what is no error stays a speed */
+    CairnSolver* solver = NULL;
+    CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+    MakeScene(&scene);
+    for (int p = 0; p < 4; ++p) scene.points[p].bias = 0.3f;
+    scene.manifold.speeds = kept ? 15 : 0;
+    scene.rows[0].target = 0.3f;
+    scene.joint.errors = pass == 3 ? 0 : 1;
+    CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+    CairnVelocity means[2];
+    CHECK(cairnMeanVelocities(solver, means, 2) == cairnOk);
+    CHECK(fabsf(means[0].linear[1] - 0.3f) < 1e-3f);
+    const bool rises = !settings.relax || kept, opens = !settings.relax || pass == 3;
+    CHECK(fabsf(scene.velocities[0].linear[1] - (rises ? 0.3f : 0)) < 1e-3f);
+    const float* const ends[2] = {scene.velocities[0].linear, scene.velocities[1].linear};
+    CHECK(fabsf(ends[1][0] - ends[0][0] - (opens ? 0.3f : 0)) < 1e-3f);
+    CHECK(fabsf(means[1].linear[0] - means[0].linear[0] - 0.3f) < 1e-3f);
+    cairnDestroySolver(solver);
+  }
+}
+
 static void EveryStatusHasASentence(void) {
   for (int status = cairnOk; status <= cairnFailed; ++status) {
     if (status == cairnOverflow + 1) status = cairnWrongVersion;
@@ -351,6 +403,8 @@ int main(int argc, char** argv) {
   TakesThreadsOfItsHost();
   RecordsAndSolvesAgain(argv[1]);
   SaysHowFastBodiesWereOnAverage();
+  SaysForHowLongIslandsWereQuiet();
+  TakesErrorsBackWithoutVelocity();
   EveryStatusHasASentence();
   printf("%d failures\n", failures);
   return failures > 0;

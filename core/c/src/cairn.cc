@@ -106,6 +106,7 @@ CairnManifold cairnDefaultManifold(void) {
           .tangents = Manifold{}.tangents,
           .soft = false,
           .twists = false,
+          .speeds = 0,
           .sweepLimit = Manifold{}.host.max_sweeps};
 }
 CairnJointRow cairnDefaultJointRow(void) { return Same<CairnJointRow>(JointRow{}); }
@@ -116,6 +117,7 @@ CairnJoint cairnDefaultJoint(void) {
           .rows = Joint{}.rows,
           .bounded = 0,
           .angular = 0,
+          .errors = 0,
           .damping = Joint{}.damping,
           .soft = false,
           .opposite = false,
@@ -130,9 +132,11 @@ CairnSettings cairnDefaultSettings(void) {
           .kGs = from.k_gs,
           .kSm = from.k_sm,
           .steps = from.steps,
+          .relax = from.relax,
           .maxSweeps = from.max_sweeps,
           .substeps = from.substeps,
           .tolerance = from.tolerance,
+          .quietSpeed = from.tuning.quiet_speed,
           .budgetKind = cairnUnlimited,
           .budget = 0,
           .minSweeps = from.tuning.min_sweeps,

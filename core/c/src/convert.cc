@@ -40,6 +40,7 @@ CAIRN_SAME_FIELD(CairnManifold, points, Manifold, points);
 CAIRN_SAME_FIELD(CairnManifold, tangents, Manifold, tangents);
 CAIRN_SAME_FIELD(CairnManifold, soft, Manifold, soft);
 CAIRN_SAME_FIELD(CairnManifold, twists, Manifold, twists);
+CAIRN_SAME_FIELD(CairnManifold, speeds, Manifold, speeds);
 CAIRN_SAME_FIELD(CairnManifold, sweepLimit, Manifold, host.max_sweeps);
 CAIRN_SAME_SIZE(CairnJointRow, JointRow);
 CAIRN_SAME_FIELD(CairnJointRow, target, JointRow, target);
@@ -55,6 +56,7 @@ CAIRN_SAME_FIELD(CairnJoint, firstRow, Joint, first_row);
 CAIRN_SAME_FIELD(CairnJoint, rows, Joint, rows);
 CAIRN_SAME_FIELD(CairnJoint, bounded, Joint, bounded);
 CAIRN_SAME_FIELD(CairnJoint, angular, Joint, angular);
+CAIRN_SAME_FIELD(CairnJoint, errors, Joint, errors);
 CAIRN_SAME_FIELD(CairnJoint, damping, Joint, damping);
 CAIRN_SAME_FIELD(CairnJoint, soft, Joint, soft);
 CAIRN_SAME_FIELD(CairnJoint, opposite, Joint, opposite);
@@ -94,9 +96,11 @@ Settings ToSettings(const CairnSettings& from) {
   settings.k_gs = from.kGs;
   settings.k_sm = from.kSm;
   settings.steps = from.steps;
+  settings.relax = from.relax;
   settings.max_sweeps = from.maxSweeps;
   settings.substeps = from.substeps;
   settings.tolerance = from.tolerance;
+  settings.tuning.quiet_speed = from.quietSpeed;
   settings.budget = ToBudget(from.budgetKind, from.budget);
   settings.tuning.min_sweeps = from.minSweeps;
   settings.threads = from.threads;
@@ -128,6 +132,9 @@ CairnIsland ToIsland(const IslandReport& from) {
   return {.firstBody = from.first_body,
           .bodies = from.bodies,
           .rows = from.rows,
+          .quiet = from.quiet,
+          .speed = from.speed,
+          .spin = from.spin,
           .sweeps = from.sweeps,
           .factorisations = from.factorisations,
           .stepsAccepted = from.steps_accepted,

@@ -93,7 +93,7 @@ class Contacts {
     ContactImpulse impulse;
   };
 
-  ContactPoint PointOf(const Touch& touch, const TouchPoint& from) const;
+  void AddPoint(const Touch& touch, const TouchPoint& from, Manifold* manifold);
   ContactImpulse StartAt(const Key& key) const;
 
   ContactOptions options_;

@@ -48,6 +48,16 @@ struct JointSide {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
 };
 
+/// By which body a is twisted, as JointKind::twist counts it [rad], in (-pi, pi].
+double TwistOf(const JointSide& a, const JointSide& b);
+
+/// A wheel with teeth, about the x axis of its side.
+struct JointGear {
+  JointSide side;    ///< Its anchor is not looked at.
+  double angle = 0;  ///< That it has turned by, whole turns aside: TwistOf() of its hinge [rad].
+  int teeth = 1;     ///< Not 0. Below 0 it turns the other way: a ring, a belt.
+};
+
 /// Makes joints, and starts their rows from what they exerted in the last frame. In each frame:
 /// Begin(), Add() for each joint, Solve() with joints(), rows() and impulses(). A frame with no
 /// more joints than an earlier one allocates nothing.
@@ -74,6 +84,10 @@ class Joints {
   int AddDistance(const JointAxis& length, const JointSide& a, const JointSide& b,
                   std::uint64_t id);
 
+  /// Teeth of two wheels that turn about the x axes of their sides, on hinges of their own: as many
+  /// of one pass as of the other, against each other where the axes agree.
+  int AddGear(const JointGear& a, const JointGear& b, std::uint64_t id);
+
   std::span<const Joint> joints() const { return joints_; }
   std::span<const JointRow> rows() const { return rows_; }
   std::span<float> impulses() { return impulses_; }
@@ -93,6 +107,8 @@ class Joints {
   void AddAxis(const JointAxis& axis, const Way& way, double position);
   void AddCone(double cone, const JointSide& a, const JointSide& b);
   JointRow& AddRow(const Way& way);
+  /// In a step, by the last row.
+  void TakeBack(double error, JointRow* row);
   int Close(std::uint64_t id);
 
   double erp_ = 0.2;

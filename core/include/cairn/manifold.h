@@ -66,6 +66,7 @@ struct Manifold {
   std::int8_t tangents = 2;  ///< Directions of friction, in [0, 2].
   bool soft = false;         ///< Points have a compliance.
   bool twists = false;       ///< Points resist turning, see ContactTwist.
+  std::uint8_t speeds = 0;   ///< Bit i: bias of point i is a speed, not depth; Settings::relax.
   detail::RowHost host = {};
 
   int rows() const { return points * (1 + tangents + (twists ? kTwistRows : 0)); }

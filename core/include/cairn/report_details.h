@@ -81,6 +81,8 @@ struct IslandReport {
   std::int64_t step_work = 0;
   double strain = 0;  ///< Largest Body::strain; next: whose, and substeps that bring it to 2.
   int strained_body = -1, enough_substeps = 0;
+  double speed = 0, spin = 0;  ///< Largest of its bodies after the step [m/s], [rad/s].
+  int quiet = 0;  ///< Solve()s in a row, with this one, that left all below Tuning::quiet_speed.
   NoStep no_step = NoStep::kNotAsked;
   StopReason stop = StopReason::kNotStarted;
 };

@@ -24,9 +24,7 @@ enum class Method {
 struct Settings {
   Method method = Method::kPgsSm;
   Path path = Path::kAuto;  ///< Which code. Report::path says which it was.
-  /// Sweeps before each subspace step, and again after it, >= 1. Five are enough to smooth what the
-  /// step leaves behind; two are not.
-  int k_gs = 5;
+  int k_gs = 5;  ///< Sweeps before each subspace step, and again after it, >= 1; 2 are too few.
   /// Factorisations in one subspace step at most, in [0, 1000]: one, and one more for each pass
   /// that removes rows which left their bounds. 0: no steps.
   int k_sm = 2;
@@ -34,13 +32,15 @@ struct Settings {
   /// Sweeps in one Solve() at most, >= 0; but see StepPolicy::kWeighed. At 0 the start comes back.
   int max_sweeps = 1000;
   int substeps = 1;  ///< Parts of a step, in [1, 64], see docs/solver.md; 1 with Tuning::replay.
+  /// What takes back errors of position moves bodies (Solver::mean_velocities()) and leaves them no
+  /// velocity: docs/solver.md, Relaxation. Off with Tuning::replay.
+  bool relax = false;
   /// Done when no row is further from its law than this: natural residual, in [m/s] for rows that
   /// act on points and in [rad/s] for rows that only turn, >= 0. 0 means never; Path::kAuto takes
   /// double precision below 1e-5.
   double tolerance = 1e-3;
   Budget budget = Budget::Unlimited();
-  /// Threads that may work on one Solve(), the caller included, in [1, 1024]. Results are the same
-  /// for any number. Problems too small to gain stay on the caller's.
+  /// Threads of one Solve(), the caller's included, in [1, 1024]; the same bits for any number.
   int threads = 1;
   /// Where the other threads come from; nullptr: oneTBB, or std::thread where built without. Must
   /// outlive every Solve().
@@ -49,8 +49,7 @@ struct Settings {
   Acceleration acceleration = Acceleration::kNncg;
   StepPolicy step_policy = StepPolicy::kMeasured;
   /// Proximal term of a step on rows without bounds (joints), relative to the diagonal of the row,
-  /// in [1e-12, 1]. It lets impulses of redundant joints grow: these are condensed, and softened if
-  /// that is not enough. docs/solver.md, Guards.
+  /// in [1e-12, 1]. What that does to redundant joints: docs/solver.md, Guards.
   double proximal_joints = 1e-6;
 
   Tuning tuning = {};

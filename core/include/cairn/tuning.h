@@ -46,25 +46,23 @@ struct Tuning {
   /// Also done when a whole sweep moved no row by more than this, [m/s] or [rad/s], >= 0. At 0 only
   /// a sweep that changed nothing at all ends the iteration.
   double min_progress = 0;
-  /// Sweeps made even if the budget is spent before them, because a frame does not fit or the
-  /// thread lost its core: >= 0, or kByBudget. At 0 a budget that is too small for anything returns
-  /// the warm start.
+  /// Sweeps made even if the budget is spent before them: >= 0, or kByBudget. At 0 a budget that is
+  /// too small for anything returns the warm start.
   int min_sweeps = kByBudget;
   /// With Budget::Time: kLateSweeps; elsewhere 1. See docs/tuning.md, Too late.
   static constexpr int kByBudget = -1, kLateSweeps = 4;
-  /// Over-relaxation of Method::kPsor, above 0 and below 2. 1 is Gauss-Seidel; towards 0 nothing
-  /// moves, towards 2 nothing settles. Other than 1, joints and manifolds are solved on
-  /// Path::kReference.
+  /// Over-relaxation of Method::kPsor, above 0 and below 2; 1 is Gauss-Seidel. Other than 1, joints
+  /// and manifolds are solved on Path::kReference.
   double omega = 1;
   /// Proximal term of a subspace step on rows with bounds, relative to the diagonal of the row, in
-  /// [1e-8, 1]. Contacts of a face are redundant and disagree by millimetres: smaller values make
-  /// the step fit that disagreement, larger ones leave more of the slow error behind. The solver
-  /// raises it on an island where a step was rejected, and lowers it while steps are kept: down to
-  /// 1/4 of this, with a budget to 1/32.
+  /// [1e-8, 1]. Contacts of a face disagree by millimetres: smaller values fit that, larger ones
+  /// leave more of the slow error behind. The solver raises it on an island where a step failed,
+  /// and lowers it while steps are kept: down to 1/4 of this, with a budget to 1/32.
   double proximal = 3e-3;
   /// Solves with the last factor of a step at most, in [1, 1000]. Those after the first refine it
   /// while no row leaves its bounds; see docs/solver.md before raising it.
   int refinements = 1;
+  double quiet_speed = 0.05;  ///< Of IslandReport::quiet [m/s], [rad/s], >= 0.
   detail::LiftedFriction lifted_friction = detail::LiftedFriction::kRelease;
   /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
   /// nullptr: none. One substep only. Outlives the Solve(), whose report it is not part of.

@@ -64,6 +64,7 @@ void Substeps::Begin(const ContactProblem& problem, const Impulses& start, int p
   ways_.resize(bodies_.size());
   means_.assign(bodies_.size(), {});
   velocities_.assign(bodies_.size(), {});
+  relaxed_ = false;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     Way& way = ways_[i];
@@ -149,6 +150,40 @@ ContactProblem Substeps::problem() const {
           .time_step = whole_.time_step * share()};
 }
 
+bool Substeps::HasErrors(double least) const {
+  for (const Joint& joint : whole_.joints) {
+    for (int i = 0; i < joint.rows && joint.errors != 0; ++i) {
+      const double target = joint_rows_[joint.first_row + i].target;
+      if ((joint.errors >> i & 1) != 0 && std::abs(target) > least) return true;
+    }
+  }
+  for (const Manifold& manifold : whole_.manifolds) {
+    for (int p = 0; p < manifold.points; ++p) {
+      if (IsDepth(manifold, p) && points_[manifold.first_point + p].bias > least) return true;
+    }
+  }
+  return false;
+}
+
+bool Substeps::IsDepth(const Manifold& manifold, int point) const {
+  return (manifold.speeds >> point & 1) == 0 && points_[manifold.first_point + point].bias > 0;
+}
+
+void Substeps::Relax() {
+  relaxed_ = true;
+  moves_ = velocities_;
+  for (const Joint& joint : whole_.joints) {
+    for (int i = 0; i < joint.rows; ++i) {
+      if ((joint.errors >> i & 1) != 0) joint_rows_[joint.first_row + i].target = 0;
+    }
+  }
+  for (const Manifold& manifold : whole_.manifolds) {
+    for (int p = 0; p < manifold.points; ++p) {
+      if (IsDepth(manifold, p)) points_[manifold.first_point + p].bias = 0;
+    }
+  }
+}
+
 void Substeps::Advance() {
   Add();
   ++part_;
@@ -199,23 +234,29 @@ Vector3d Substeps::MeanSpin(const Way& way) const {
 }
 
 void Substeps::MoveBodies() {
-  const bool turns = whole_.time_step > 0;
+  // one part turns bodies as its spin says, however fast
+  const bool turns = whole_.time_step > 0 && parts_ > 1;
+  const std::vector<Velocity>& moves = relaxed_ ? moves_ : velocities_;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     Way& way = ways_[i];
     body.velocity = velocities_[i];
     way.now = velocities_[i];
+    Velocity moved = moves[i];
     if (!motions_.empty()) {
-      AddTo(way.start, 1, &way.now);
-      AddTo(way.pushed, share() * part_, &way.now);
+      for (Velocity* velocity : {&way.now, &moved}) {
+        AddTo(way.start, 1, velocity);
+        AddTo(way.pushed, share() * part_, velocity);
+      }
     }
-    AddTo(way.now, share(), &way.way);
-    AddTo(velocities_[i], share(), &means_[i]);
+    AddTo(moved, share(), &way.way);
+    AddTo(moves[i], share(), &means_[i]);
     if (!turns) continue;
-    Turn(way.now.angular, &way);
+    Turn(moved.angular, &way);
     if (done()) means_[i].angular = MeanSpin(way);
   }
   MoveMotions();
+  relaxed_ = false;
 }
 
 void Substeps::MoveMotions() {

@@ -14,6 +14,7 @@ namespace cairn {
 ///
 ///     for (substeps.Begin(problem, start, n); !substeps.done(); substeps.Advance()) {
 ///       solve substeps.problem() into substeps.impulses() and substeps.velocities()
+///       if asked and substeps.HasErrors(): substeps.Relax(), and solve again
 ///     }
 ///     substeps.Write(impulses, velocities);
 ///
@@ -34,6 +35,11 @@ class Substeps {
   ContactProblem problem() const;
   Impulses impulses() { return {rows_x_, points_x_, twists_x_, joints_x_}; }
   std::span<Velocity> velocities() { return velocities_; }
+  /// Some row of the part takes back an error of position, faster than @p least [m/s] or [rad/s].
+  bool HasErrors(double least) const;
+  /// Of a part that is solved: bodies move as that says. From here on its problem asks for nothing
+  /// that takes back errors, and starts from what came of it.
+  void Relax();
   /// Takes up what came of the part, and goes on to the next.
   void Advance();
   /// The sum of all impulses, and velocities in the end.
@@ -58,6 +64,8 @@ class Substeps {
   };
 
   void Start(const Impulses& start);
+  /// Its bias takes back depth.
+  bool IsDepth(const Manifold& manifold, int point) const;
   void FindHeld();
   void MoveBodies();
   void MoveMotions();
@@ -89,6 +97,8 @@ class Substeps {
   std::vector<TwistImpulse> twists_x_, twists_sum_;
   std::vector<float> joints_x_, joints_sum_;
   std::vector<Velocity> velocities_, means_;
+  std::vector<Velocity> moves_;  ///< of the part, if it was relaxed
+  bool relaxed_ = false;
   std::vector<Way> ways_;
   std::vector<Held> held_;
   std::vector<char> is_held_;  ///< by row of a joint

@@ -16,6 +16,7 @@ using Eigen::Vector3d;
 struct NormalLaw {
   double bias;
   double compliance;
+  bool is_speed;  ///< bias is to be kept, and takes back no depth
 };
 
 /// How a point moves along its normal.
@@ -37,7 +38,7 @@ double BounceSpeed(double restitution, const Approach& approach, double gap, dou
 
 NormalLaw LawOf(const ContactOptions& options, double restitution, const Approach& approach,
                 double depth, double h) {
-  NormalLaw law{.bias = depth / h, .compliance = 0};
+  NormalLaw law{.bias = depth / h, .compliance = 0, .is_speed = false};
   if (depth >= 0) {
     const double frequency = std::min(options.frequency, 0.25 / h);
     const SoftRow soft = frequency > 0
@@ -45,12 +46,13 @@ NormalLaw LawOf(const ContactOptions& options, double restitution, const Approac
                              : SoftRow{.share = options.erp, .compliance = 0};
     law.bias = std::min(options.max_push, soft.share * std::max(0.0, depth - options.slop) / h);
     law.compliance = soft.compliance;
+    law.is_speed = frequency > 0;
   }
   const bool bounces = restitution > 0 && -approach.start >= options.min_bounce &&
                        -approach.start > 0 && h * approach.free <= depth;
   if (!bounces) return law;
-  return {.bias = std::max(law.bias, BounceSpeed(restitution, approach, -depth, h)),
-          .compliance = 0};
+  const double bounce = BounceSpeed(restitution, approach, -depth, h);
+  return {.bias = std::max(law.bias, bounce), .compliance = 0, .is_speed = true};
 }
 
 }  // namespace
@@ -84,14 +86,13 @@ void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
       manifold->tangents = touch.friction > 0 ? 2 : 0;
       manifold->soft = options_.frequency > 0;
     }
-    ++manifold->points;
-    points_.push_back(PointOf(touch, point));
+    AddPoint(touch, point, manifold);
     keys_.push_back({touch.id, point.feature});
     impulses_.push_back(StartAt(keys_.back()));
   }
 }
 
-ContactPoint Contacts::PointOf(const Touch& touch, const TouchPoint& from) const {
+void Contacts::AddPoint(const Touch& touch, const TouchPoint& from, Manifold* manifold) {
   const auto arm = [&from](int body, const Vector3d& centre) -> Vector3d {
     if (body == kWorld) return Vector3d::Zero();
     return from.position - centre;
@@ -108,14 +109,15 @@ ContactPoint Contacts::PointOf(const Touch& touch, const TouchPoint& from) const
       .mobility = Mobility(step_, touch.body_a, a) + Mobility(step_, touch.body_b, b)};
   const NormalLaw law = LawOf(options_, touch.restitution, approach, from.depth, step_.time_step);
 
-  ContactPoint point;
+  if (law.is_speed) manifold->speeds |= static_cast<std::uint8_t>(1 << manifold->points);
+  ++manifold->points;
+  ContactPoint& point = points_.emplace_back();
   PutFloats(arm_a, point.arm_a);
   PutFloats(arm_b, point.arm_b);
   PutFloats(touch.normal, point.normal);
   point.bias = static_cast<float>(law.bias);
   point.friction = static_cast<float>(touch.friction);
   point.compliance = static_cast<float>(law.compliance);
-  return point;
 }
 
 ContactImpulse Contacts::StartAt(const Key& key) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "engine/angle.h"
 #include "engine/step_body.h"
@@ -21,7 +22,7 @@ struct Twist {
   Vector3d axis;
 };
 
-Twist TwistOf(const JointSide& a, const JointSide& b) {
+Twist FindTwist(const JointSide& a, const JointSide& b) {
   const Eigen::Quaterniond turn(Eigen::Matrix3d(b.axes.transpose() * a.axes));
   const Vector3d x_a = a.axes.col(0), x_b = b.axes.col(0);
   // (x_a + x_b) / (1 + x_a.x_b) has no bound where these are opposite
@@ -54,6 +55,8 @@ JointKind ConeTwistJoint(double cone, const JointAxis& twist) {
   return {.linear = {kHeld, kHeld, kHeld}, .twist = twist, .cone = cone};
 }
 
+double TwistOf(const JointSide& a, const JointSide& b) { return FindTwist(a, b).angle; }
+
 void Joints::Begin(const StepInput& step) {
   kept_.clear();
   for (size_t i = 0; i < joints_.size(); ++i) {
@@ -83,7 +86,7 @@ int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, s
     AddAxis(kind.linear[i], way, axis.dot(apart));
   }
   AddCone(kind.cone, a, b);
-  const Twist twist = TwistOf(a, b);
+  const Twist twist = FindTwist(a, b);
   AddAxis(
       kind.twist,
       {.a = {Vector3d::Zero(), twist.axis}, .b = {Vector3d::Zero(), -twist.axis}, .turns = true},
@@ -102,6 +105,20 @@ int Joints::AddDistance(const JointAxis& length, const JointSide& a, const Joint
            .b = {-axis, -(b.anchor - b.centre).cross(axis)},
            .turns = false},
           distance);
+  return Close(id);
+}
+
+int Joints::AddGear(const JointGear& a, const JointGear& b, std::uint64_t id) {
+  Open(a.side, b.side);
+  // as a turns: by what teeth of b that pass turn it
+  const double ratio = static_cast<double>(b.teeth) / a.teeth;
+  const double meshed = a.teeth * a.angle + b.teeth * b.angle;
+  // exact with every library; half a tooth off it falls into the next gap
+  const double error = std::remainder(meshed, 2 * kPi) / a.teeth;
+  JointRow& row = AddRow({.a = {Vector3d::Zero(), a.side.axes.col(0)},
+                          .b = {Vector3d::Zero(), ratio * b.side.axes.col(0)},
+                          .turns = true});
+  TakeBack(erp_ * error, &row);
   return Close(id);
 }
 
@@ -128,6 +145,12 @@ JointRow& Joints::AddRow(const Way& way) {
   return row;
 }
 
+void Joints::TakeBack(double error, JointRow* row) {
+  Joint& joint = joints_.back();
+  joint.errors |= std::uint32_t{1} << (joint.rows - 1);
+  row->target = static_cast<float>(-error / step_.time_step);
+}
+
 void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
   const double h = step_.time_step;
   const auto bound = [this](double lo, double hi, JointRow* row) {
@@ -137,13 +160,17 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     row->hi = static_cast<float>(hi);
   };
   if (axis.lo == axis.hi) {
-    AddRow(way).target = static_cast<float>(-erp_ * (position - axis.lo) / h);
+    TakeBack(erp_ * (position - axis.lo), &AddRow(way));
   } else if (axis.lo > -kInfinity || axis.hi < kInfinity) {
     const bool lower = position - axis.lo <= axis.hi - position;
     const double to_limit = (lower ? axis.lo : axis.hi) - position;
     const bool inside = lower ? to_limit <= 0 : to_limit >= 0;
     JointRow& row = AddRow(way);
-    row.target = static_cast<float>((inside ? 1 : erp_) * to_limit / h);
+    if (inside) {
+      row.target = static_cast<float>(to_limit / h);
+    } else {
+      TakeBack(-erp_ * to_limit, &row);
+    }
     lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
   }
   if (axis.motor_most > 0) {

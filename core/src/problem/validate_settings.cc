@@ -8,10 +8,10 @@ namespace cairn {
 
 BadSetting FindBadSetting(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
-  const auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, tolerance, budget, threads,
-               executor, acceleration, step_policy, proximal_joints, tuning] = settings;
-  const auto& [min_progress, min_sweeps, omega, proximal, refinements, lifted_friction, replay,
-               spans, clock] = tuning;
+  const auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, tolerance, budget,
+               threads, executor, acceleration, step_policy, proximal_joints, tuning] = settings;
+  const auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, lifted_friction,
+               replay, spans, clock] = tuning;
   static_cast<void>(steps);  // any will do, and any of these
   static_cast<void>(executor);
   static_cast<void>(spans);
@@ -25,6 +25,7 @@ BadSetting FindBadSetting(const Settings& settings) {
   // a replay is of one meter, and parts have one each
   judge.Inside("substeps", substeps, 1, replay == nullptr ? 64 : 1,
                replay == nullptr ? "1 to 64" : "1 in a replay");
+  judge.Holds(!relax || replay == nullptr, {"relax", 1, "0 in a replay"});
   judge.AtLeast("tolerance", tolerance, 0);
   judge.AtLeast("tuning.min_progress", min_progress, 0);
   judge.Limit("budget", budget);
@@ -35,6 +36,7 @@ BadSetting FindBadSetting(const Settings& settings) {
   judge.AtLeast("tuning.min_sweeps", min_sweeps, Tuning::kByBudget);
   judge.Inside("threads", threads, 1, 1024, "1 to 1024");
   judge.Holds(omega > 0 && omega < 2, {"tuning.omega", omega, "above 0 and below 2"});
+  judge.AtLeast("tuning.quiet_speed", quiet_speed, 0);
   judge.Enumerator("tuning.lifted_friction", lifted_friction, detail::LiftedFriction::kHold,
                    "one of LiftedFriction");
   judge.Enumerator("acceleration", acceleration, Acceleration::kNncg, "one of Acceleration");

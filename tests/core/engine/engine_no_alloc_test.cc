@@ -16,7 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) {
+/// Frames of an engine, whose contacts are @p depth deep.
+void RunFrames(const Settings& settings, double depth) {
   constexpr int kBodies = 40;
   std::vector<Body> bodies(kBodies);
   for (int i = 0; i < kBodies; ++i) {
@@ -27,7 +28,7 @@ TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) {
   }
   Contacts contacts;
   Joints joints;
-  Solver solver(Settings{.steps = false});
+  Solver solver(settings);
   std::vector<Velocity> velocities(kBodies);
   Report report;
   const auto step = [&](int frame) {
@@ -37,7 +38,8 @@ TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) {
     // the order changes from frame to frame, the number does not
     for (int k = 0; k < kBodies; ++k) {
       const int i = (k + frame) % kBodies;
-      const std::array points{TouchPoint{.feature = 1}, TouchPoint{.position = {1, 0, 0}}};
+      const std::array points{TouchPoint{.depth = depth, .feature = 1},
+                              TouchPoint{.position = {1, 0, 0}, .depth = depth}};
       contacts.Add({.body_a = i, .centre_a = {0, 0.5, 0}, .id = bodies[i].id}, points);
       if (k % 2 == 0) joints.Add(HingeJoint({.motor_most = 1}), {.body = i}, {}, bodies[i].id);
     }
@@ -50,6 +52,10 @@ TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) {
   for (int frame = 0; frame < 1000; ++frame) step(frame);
   EXPECT_EQ(test::NewCalls() - before, 0);
 }
+
+TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) { RunFrames({.steps = false}, 0); }
+
+TEST(EngineNoAlloc, RelaxationDoesSo) { RunFrames({.steps = false, .relax = true}, 0.1); }
 
 TEST(EngineNoAlloc, TheInterfaceOfCDoesSo) {
   test::ManifoldScene scene = test::ManifoldTower(20);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "engine/angle.h"
 #include "tests/core/engine/small_world.h"
@@ -201,6 +202,102 @@ TEST(Joints, DistanceIsARodOrARope) {
     w->joints.AddDistance({.hi = 1}, w->things[0].Side(0, Vector3d::Zero()), {}, 1);
   });
   EXPECT_NEAR(world.things[0].velocity.linear.y(), -9.81 / 60, 1e-6);
+}
+
+TEST(Joints, TwistOfIsTheTurnAboutX) {
+  for (const double angle : {-3.0, -0.5, 0.0, 1.25, 3.1}) {
+    JointSide turned;
+    turned.axes = Eigen::AngleAxisd(angle, Vector3d::UnitX()).toRotationMatrix();
+    EXPECT_NEAR(TwistOf(turned, {}), angle, 1e-12);
+    EXPECT_NEAR(TwistOf({}, turned), -angle, 1e-12);
+  }
+}
+
+// By hand: 20 teeth against 30. Both turn by w_a + 1.5 w_b = -erp C / h, where C is what 20 times
+// the angle of a and 30 times that of b are off a whole turn, as an angle of a: 20 x 0.04 - 30 x
+// 0.02 = 0.2, by 20 is 0.01 rad.
+TEST(Joints, GearHasOneRowOfBothTurns) {
+  Joints joints(0.5);
+  const std::array bodies{Body{.inv_mass = 1, .inv_inertia = Eigen::Matrix3d::Identity()},
+                          Body{.inv_mass = 1, .inv_inertia = Eigen::Matrix3d::Identity()}};
+  joints.Begin({bodies, 0.01});
+  JointSide across{.body = 1};
+  across.axes = Eigen::AngleAxisd(kPi / 2, Vector3d::UnitY()).toRotationMatrix();
+  EXPECT_EQ(joints.AddGear({{.body = 0}, 0.04, 20}, {across, -0.02, 30}, 1), 0);
+  ASSERT_EQ(joints.rows().size(), size_t{1});
+  const JointRow& row = joints.rows()[0];
+  EXPECT_TRUE(Vector3d(row.angular_a[0], row.angular_a[1], row.angular_a[2])
+                  .isApprox(Vector3d(1, 0, 0), 1e-6));
+  EXPECT_TRUE(Vector3d(row.angular_b[0], row.angular_b[1], row.angular_b[2])
+                  .isApprox(Vector3d(0, 0, -1.5), 1e-6));
+  EXPECT_EQ(Vector3d(row.linear_a[0], row.linear_a[1], row.linear_a[2]), Vector3d::Zero());
+  EXPECT_NEAR(row.target, -0.5 * 0.01 / 0.01, 1e-6);
+  EXPECT_EQ(joints.joints()[0].angular, 1u);
+  EXPECT_EQ(joints.joints()[0].bounded, 0u);
+}
+
+// A whole turn of either is no error, and half a tooth is the most.
+TEST(Joints, GearMeshesAnyTooth) {
+  const std::array bodies{Body{.inv_mass = 1, .inv_inertia = Eigen::Matrix3d::Identity()}};
+  const auto target = [&](double angle_a, double angle_b) {
+    Joints joints(1);
+    joints.Begin({bodies, 1});
+    joints.AddGear({{.body = 0}, angle_a, 12}, {{}, angle_b, -5}, 1);
+    return static_cast<double>(joints.rows()[0].target);
+  };
+  const double tooth = 2 * kPi / 12;
+  EXPECT_NEAR(target(0, 0), 0, 1e-6);
+  EXPECT_NEAR(target(3 * tooth, 0), 0, 1e-6);
+  EXPECT_NEAR(target(2 * kPi, -2 * kPi), 0, 1e-6);
+  EXPECT_NEAR(target(tooth / 4, 0), -tooth / 4, 1e-6);
+  EXPECT_NEAR(target(3 * tooth / 4, 0), tooth / 4, 1e-6);
+  EXPECT_NEAR(target(0, 2 * kPi / 5 / 4), tooth / 4, 1e-6);
+}
+
+/// Wheels on hinges along x in the world, of so many teeth; wheel 0 has a motor of 2 rad/s. Each
+/// meshes with the next, and the last with the first if @p closed.
+SmallWorld Wheels(const std::vector<int>& teeth, bool closed, int steps) {
+  SmallWorld world;
+  const int count = static_cast<int>(teeth.size());
+  for (int i = 0; i < count; ++i) world.things.push_back({.position = {0, 2.0 * i, 0}});
+  for (int step = 0; step < steps; ++step) {
+    world.Step([&](SmallWorld* w) {
+      std::vector<JointGear> gears;
+      for (int i = 0; i < count; ++i) {
+        const JointSide wheel = w->things[i].Side(i, Vector3d::Zero());
+        const JointSide axle{.anchor = {0, 2.0 * i, 0}};
+        const JointAxis motor{.speed = 2, .motor_most = 20};
+        w->joints.Add(HingeJoint(i == 0 ? motor : JointAxis{}), wheel, axle, i + 1);
+        gears.push_back({wheel, TwistOf(wheel, axle), teeth[i]});
+      }
+      for (int i = 0; i + (closed ? 0 : 1) < count; ++i) {
+        w->joints.AddGear(gears[i], gears[(i + 1) % count], 100 + i);
+      }
+    });
+  }
+  return world;
+}
+
+TEST(Joints, GearsPassOnTurnsByTheirTeeth) {
+  // ten seconds: three turns of the first
+  const SmallWorld world = Wheels({20, 40, 10}, false, 600);
+  const double speeds[] = {2, -1, 4};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(world.things[i].velocity.angular.x(), speeds[i], 1e-3) << i;
+  }
+  // teeth have passed as they came: by hand, 20 a + 40 b and 40 b + 10 c are whole turns
+  const double a = AngleAboutX(world.things[0]), b = AngleAboutX(world.things[1]);
+  const double c = AngleAboutX(world.things[2]);
+  EXPECT_NEAR(std::remainder(20 * a + 40 * b, 2 * kPi) / 20, 0, 1e-3);
+  EXPECT_NEAR(std::remainder(40 * b + 10 * c, 2 * kPi) / 10, 0, 1e-3);
+}
+
+TEST(Joints, ARingOfGearsTurnsIfTheirNumberIsEven) {
+  const SmallWorld four = Wheels({8, 16, 8, 16}, true, 240);
+  EXPECT_NEAR(four.things[0].velocity.angular.x(), 2, 1e-3);
+  EXPECT_NEAR(four.things[2].velocity.angular.x(), 2, 1e-3);
+  const SmallWorld three = Wheels({8, 16, 8}, true, 240);
+  for (const Thing& wheel : three.things) EXPECT_LE(wheel.velocity.angular.norm(), 1e-3);
 }
 
 TEST(Joints, GiveAndTakeTheSameMomentum) {

@@ -60,12 +60,15 @@ struct SmallWorld {
     report =
         solver.Solve(ProblemOf(step, contacts, joints), StartOf(&contacts, &joints), velocities);
     ASSERT_TRUE(report.ok()) << Describe(report);
-    for (size_t i = 0; i < things.size(); ++i) Move(velocities[i], &things[i]);
+    const std::span<const Velocity> means = solver.mean_velocities();
+    for (size_t i = 0; i < things.size(); ++i) {
+      Move(means.empty() ? velocities[i] : means[i], &things[i]);
+      things[i].velocity = velocities[i];
+    }
   }
 
  private:
   void Move(const Velocity& velocity, Thing* thing) const {
-    thing->velocity = velocity;
     thing->position += h * velocity.linear;
     const double angle = h * velocity.angular.norm();
     if (angle == 0) return;

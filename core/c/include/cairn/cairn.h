@@ -52,11 +52,8 @@ typedef enum CairnStatus {
   cairnFailed   /* none of these: a mistake of ours */
 } CairnStatus;
 
-/* One sentence, without a full stop; lives forever. */
-CAIRN_API const char* cairnDescribe(CairnStatus status);
-
-/* 0x010203 is 1.2.3. */
-CAIRN_API uint32_t cairnVersion(void);
+CAIRN_API const char* cairnDescribe(CairnStatus status); /* one sentence; lives forever */
+CAIRN_API uint32_t cairnVersion(void);                   /* 0x010203 is 1.2.3 */
 
 /* Linear [m/s] and angular [rad/s]. */
 typedef struct CairnVelocity {
@@ -104,6 +101,7 @@ typedef struct CairnManifold {
   int8_t points;      /* 1 to 4 */
   int8_t tangents;    /* directions of friction, 0 to 2 */
   bool soft, twists;  /* points have a compliance; resist turning */
+  uint8_t speeds;     /* bit i: bias of point i is a speed, not depth; CairnSettings::relax */
   int32_t sweepLimit; /* sweeps that it takes part in */
 } CairnManifold;
 
@@ -124,6 +122,7 @@ typedef struct CairnJoint {
   int32_t firstRow, rows;
   uint32_t bounded; /* bit i: row i has bounds */
   uint32_t angular; /* bit i: row i only turns */
+  uint32_t errors;  /* bit i: row i takes back an error of position; CairnSettings::relax */
   float damping;    /* share of free motion that rows work against; 1: all */
   bool soft;        /* rows have a compliance */
   bool opposite;    /* linearB is -linearA, whatever it says: swept faster */
@@ -166,11 +165,11 @@ typedef enum CairnBudgetKind { cairnUnlimited, cairnTime, cairnWork } CairnBudge
 typedef struct CairnSettings {
   CairnMethod method;
   CairnPath path;
-  int32_t kGs, kSm; /* sweeps around a step, factorisations in it */
-  bool steps;
+  int32_t kGs, kSm;  /* sweeps around a step, factorisations in it */
+  bool steps, relax; /* relax: corrections of position leave no velocity; cairnMeanVelocities() */
   int32_t maxSweeps;
   int32_t substeps; /* parts that the step is cut into, 1 to 64; see cairnMeanVelocities() */
-  double tolerance; /* [m/s] */
+  double tolerance, quietSpeed; /* [m/s]; of CairnIsland::quiet, [m/s] and [rad/s] */
   CairnBudgetKind budgetKind;
   int64_t budget;    /* nanoseconds, or units of work: 1 = 1 row relaxed */
   int32_t minSweeps; /* even if the budget is spent; -1: by the budget */
@@ -202,6 +201,8 @@ typedef struct CairnReport {
 /* Bodies that contacts and joints connect. */
 typedef struct CairnIsland {
   int32_t firstBody, bodies, rows;
+  int32_t quiet;      /* steps in a row that left all bodies below CairnSettings::quietSpeed */
+  double speed, spin; /* largest of its bodies after the step [m/s], [rad/s] */
   int32_t sweeps, factorisations, stepsAccepted, stepsRestored;
   CairnStop stop;
   bool guarded;
@@ -222,9 +223,8 @@ CAIRN_API size_t cairnDescribeSettings(const CairnSettings* settings, char* text
 /* How a program sees the structs: cairnCreateSolver() compares it with what the library has. */
 typedef struct CairnLayout {
   uint32_t version;
-  uint32_t body, contactPoint, contactImpulse, contactTwist, twistImpulse, manifold, jointRow,
-      joint;
-  uint32_t problem, solution, settings, report, island;
+  uint32_t body, contactPoint, contactImpulse, contactTwist, twistImpulse, manifold, jointRow;
+  uint32_t joint, problem, solution, settings, report, island;
 } CairnLayout;
 
 #define CAIRN_SIZE(type) ((uint32_t)sizeof(type))
@@ -262,9 +262,9 @@ CAIRN_API void cairnReset(CairnSolver* solver);
 CAIRN_API CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
                                  const CairnSolution* solution, CairnReport* report);
 
-/* Of the last step, one per body: velocities on average. With substeps, bodies move by these over
-   the step and keep those that were written; without, they are the same. cairnWrongSize: not as
-   many as it had bodies, or it was refused. */
+/* Of the last step, one per body: velocities on average. With substeps or relax, bodies move by
+   these over the step and keep those that were written; else they are the same. cairnWrongSize: not
+   as many as it had bodies, or it was refused. */
 CAIRN_API CairnStatus cairnMeanVelocities(const CairnSolver* solver, CairnVelocity* velocities,
                                           int32_t count);
 

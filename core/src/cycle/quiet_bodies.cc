@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "cycle/quiet_bodies.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace cairn {
+namespace {
+
+/// A count that a game does not reach, and that does not overflow.
+constexpr int kMost = std::numeric_limits<int>::max() / 2;
+
+/// Velocity at the end of the step, also where those of a problem count from its start.
+Velocity EndOf(const ContactProblem& problem, std::span<const Velocity> velocities, size_t body) {
+  Velocity end = velocities[body];
+  if (problem.motions.empty()) return end;
+  const ContactMotion& motion = problem.motions[body];
+  end.linear += Eigen::Map<const Eigen::Vector3f>(motion.free_velocity).cast<double>();
+  end.angular += Eigen::Map<const Eigen::Vector3f>(motion.free_spin).cast<double>();
+  return end;
+}
+
+}  // namespace
+
+void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
+                       double speed, Report* report) {
+  for (IslandReport& island : report->islands) {
+    // one of rows that push nothing has no body to be quiet
+    island.quiet = island.bodies > 0 ? kMost : 0;
+  }
+  counts_.resize(problem.bodies.size());
+  for (size_t i = 0; i < problem.bodies.size(); ++i) {
+    const int at = report->island_of[i];
+    Count& count = counts_[i];
+    if (at < 0 || count.id != problem.bodies[i].id) count = {.id = problem.bodies[i].id};
+    if (at < 0) continue;
+    IslandReport& island = report->islands[at];
+    const Velocity end = EndOf(problem, velocities, i);
+    const double linear = end.linear.norm(), angular = end.angular.norm();
+    const bool is_quiet = linear < speed && angular < speed;
+    count.solves = is_quiet ? std::min(count.solves + 1, kMost) : 0;
+    island.speed = std::max(island.speed, linear);
+    island.spin = std::max(island.spin, angular);
+    island.quiet = std::min(island.quiet, count.solves);
+  }
+}
+
+}  // namespace cairn

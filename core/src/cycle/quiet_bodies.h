@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cairn/contact_problem.h"
+#include "cairn/report.h"
+
+namespace cairn {
+
+/// Says how fast the bodies of each island are after a step, and for how long they have been quiet.
+/// A body at another place than in the last frame, or of another name, starts anew.
+class QuietBodies {
+ public:
+  /// @param speed  Tuning::quiet_speed
+  /// @pre the report is that of the problem, solved; velocities are those that it ends with
+  void Tell(const ContactProblem& problem, std::span<const Velocity> velocities, double speed,
+            Report* report);
+  void Forget() { counts_.clear(); }
+
+ private:
+  struct Count {
+    std::uint64_t id = 0;
+    int solves = 0;
+  };
+
+  std::vector<Count> counts_;  ///< by body
+};
+
+}  // namespace cairn

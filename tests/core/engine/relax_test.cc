@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+// Settings::relax: what takes back errors of position moves bodies, and leaves no velocity.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "tests/core/engine/small_world.h"
+
+namespace cairn {
+namespace {
+
+using test::SmallWorld;
+using test::Thing;
+using test::Vector3d;
+
+constexpr double kRadius = 0.1, kStep = 1 / 60.0;
+
+SmallWorld Relaxing(bool relax = true) {
+  SmallWorld world;
+  world.solver.settings().relax = relax;
+  return world;
+}
+
+/// One step of a body at @p position, with @p speed, without gravity.
+SmallWorld StepOnce(bool relax, const Vector3d& position, const Velocity& velocity,
+                    const std::function<void(SmallWorld*)>& fill) {
+  SmallWorld world = Relaxing(relax);
+  world.gravity = 0;
+  world.things.push_back({.position = position, .velocity = velocity});
+  world.Step(fill);
+  return world;
+}
+
+/// A ball that touches the ground.
+void Touches(double restitution, SmallWorld* world) {
+  const Vector3d& at = world->things[0].position;
+  const std::array points{TouchPoint{.position = {at.x(), 0, at.z()}, .depth = kRadius - at.y()}};
+  world->contacts.Add({.body_a = 0, .centre_a = at, .restitution = restitution, .id = 1}, points);
+}
+
+void Holds(const JointKind& kind, SmallWorld* world) {
+  world->joints.Add(kind, world->things[0].Side(0, Vector3d::Zero()), {}, 1);
+}
+
+// By hand: a depth of 30 mm, less 5 mm of slop, by a fifth: 5 mm.
+TEST(Relax, DepthMovesABodyAndLeavesItAtRest) {
+  const auto fill = [](SmallWorld* w) { Touches(0, w); };
+  const Vector3d deep(0, kRadius - 0.03, 0);
+  const SmallWorld pushed = StepOnce(false, deep, {}, fill);
+  EXPECT_NEAR(pushed.things[0].velocity.linear.y(), 0.005 / kStep, 1e-5);
+  const SmallWorld relaxed = StepOnce(true, deep, {}, fill);
+  EXPECT_NEAR(relaxed.things[0].position.y(), deep.y() + 0.005, 1e-6);
+  EXPECT_NEAR(relaxed.things[0].velocity.linear.y(), 0, 1e-5);
+}
+
+// A fifth of 0.1 m, and of 0.2 rad.
+TEST(Relax, JointsCloseAndLeaveTheirBodiesAtRest) {
+  SmallWorld world = Relaxing();
+  world.gravity = 0;
+  world.things.push_back({.position = {0.1, 0, 0}});
+  world.things[0].turn = Eigen::AngleAxisd(0.2, Vector3d::UnitY());
+  world.Step([](SmallWorld* w) { Holds(FixedJoint(), w); });
+  EXPECT_NEAR(world.things[0].position.x(), 0.08, 1e-4);
+  EXPECT_NEAR(Eigen::AngleAxisd(world.things[0].turn).angle(), 0.16, 1e-4);
+  EXPECT_LE(world.things[0].velocity.linear.norm(), 1e-4);
+  EXPECT_LE(world.things[0].velocity.angular.norm(), 1e-4);
+}
+
+TEST(Relax, LimitsAndGearsDoSoToo) {
+  const auto fill = [](SmallWorld* w) { Holds(SliderJoint({.hi = 0.5}), w); };
+  const SmallWorld world = StepOnce(true, {1, 0, 0}, {}, fill);
+  EXPECT_NEAR(world.things[0].position.x(), 0.9, 1e-5);
+  EXPECT_NEAR(world.things[0].velocity.linear.x(), 0, 1e-4);
+  const auto mesh = [](SmallWorld* w) {
+    JointGear wheel, still;
+    wheel.side = w->things[0].Side(0, Vector3d::Zero());
+    wheel.angle = 0.1;
+    w->joints.AddGear(wheel, still, 1);
+  };
+  const SmallWorld gear = StepOnce(true, Vector3d::Zero(), {}, mesh);
+  EXPECT_NEAR(2 * gear.things[0].turn.x(), -0.02, 1e-4);
+  EXPECT_NEAR(gear.things[0].velocity.angular.x(), 0, 1e-4);
+}
+
+// What is asked for as a velocity stays one: gaps, motors, springs, soft contacts, room to a limit.
+TEST(Relax, KeepsWhatTakesBackNoError) {
+  const Velocity falls{.linear = {0, -3, 0}}, slides{.linear = {9, 0, 0}};
+  struct Case {
+    Vector3d position;
+    Velocity velocity;
+    std::function<void(SmallWorld*)> fill;
+  };
+  const JointAxis spring{.rest = 0.1, .frequency = 3}, motor{.speed = 2, .motor_most = 1e4};
+  const std::array cases{
+      Case{{0, kRadius + 0.02, 0}, falls, [](SmallWorld* w) { Touches(0, w); }},
+      Case{{0, kRadius - 0.03, 0},
+           falls,
+           [](SmallWorld* w) {
+             w->contacts.options().frequency = 5;
+             Touches(0, w);
+           }},
+      Case{{0, 0, 0}, {}, [&](SmallWorld* w) { Holds(SliderJoint(motor), w); }},
+      Case{{0, 0, 0}, {}, [&](SmallWorld* w) { Holds(SliderJoint(spring), w); }},
+      Case{{0.45, 0, 0}, slides, [](SmallWorld* w) { Holds(SliderJoint({.hi = 0.5}), w); }}};
+  for (size_t i = 0; i < cases.size(); ++i) {
+    const auto& [position, velocity, fill] = cases[i];
+    const SmallWorld pushed = StepOnce(false, position, velocity, fill);
+    const SmallWorld relaxed = StepOnce(true, position, velocity, fill);
+    const Vector3d asked = pushed.things[0].velocity.linear;
+    EXPECT_GT((asked - velocity.linear).norm(), 0.1) << i << ": it does nothing";
+    EXPECT_NEAR((relaxed.things[0].velocity.linear - asked).norm(), 0, 1e-4) << i;
+    EXPECT_NEAR((relaxed.things[0].position - pushed.things[0].position).norm(), 0, 1e-5) << i;
+  }
+}
+
+/// How high a ball of the core alone gets after its first bounce, with a fifth of its depth taken
+/// back: bias and restitution as they come [m].
+double RawHeight(bool relax, double drop, double rate) {
+  Thing ball{.position = {0, kRadius + drop, 0}};
+  const double h = 1 / rate;
+  Solver solver({.relax = relax, .tolerance = 1e-5});
+  bool bounced = false;
+  double highest = 0;
+  for (int frame = 0; frame < 4 * rate; ++frame) {
+    const double gap = ball.position.y() - kRadius;
+    const Body body{.inv_mass = 1,
+                    .inv_inertia = Eigen::Matrix3d::Identity(),
+                    .velocity = ball.velocity,
+                    .impulse = {0, -9.81 * h, 0}};
+    const Manifold manifold{.body_a = 0};
+    const ContactPoint point{.arm_a = {0, -0.1f, 0},
+                             .normal = {0, 1, 0},
+                             .bias = static_cast<float>(gap > 0 ? -gap / h : -0.2 * gap / h),
+                             .restitution = 1};
+    ContactImpulse impulse;
+    Velocity velocity;
+    const ContactProblem problem{
+        .bodies = {&body, 1}, .manifolds = {&manifold, 1}, .points = {&point, 1}, .time_step = h};
+    EXPECT_TRUE(solver.Solve(problem, {.points = {&impulse, 1}}, {&velocity, 1}).ok());
+    const bool has_means = !solver.mean_velocities().empty();
+    ball.position += h * (has_means ? solver.mean_velocities()[0] : velocity).linear;
+    const bool turned = ball.velocity.linear.y() < 0 && velocity.linear.y() > 0;
+    ball.velocity = velocity;
+    if (bounced && velocity.linear.y() <= 0) break;
+    bounced = bounced || turned;
+    if (bounced) highest = std::max(highest, ball.position.y() - kRadius);
+  }
+  return highest;
+}
+
+TEST(Relax, RestitutionOneRisesToWhereItFellFrom) {
+  double worst = 0;
+  for (const double rate : {30.0, 60.0, 144.0}) {
+    for (const double drop : {1.4, 1.7, 2.0, 2.3, 3.1, 5.0}) {
+      const double height = RawHeight(true, drop, rate);
+      EXPECT_NEAR(height, drop, 0.01 * drop) << rate << " Hz from " << drop << " m";
+      worst = std::max(worst, std::abs(RawHeight(false, drop, rate) - drop) / drop);
+    }
+  }
+  EXPECT_GT(worst, 0.1) << "bias and bounce do not add up without";
+}
+
+TEST(Relax, HelpersBounceToTheSquareOfRestitution) {
+  for (const double restitution : {0.0, 0.5, 1.0}) {
+    SmallWorld world = Relaxing();
+    world.things.push_back({.position = {0, kRadius + 2, 0}, .inertia = 0.004});
+    bool bounced = false;
+    double highest = 0;
+    for (int frame = 0; frame < 120; ++frame) {
+      world.Step([&](SmallWorld* w) { Touches(restitution, w); });
+      const Thing& ball = world.things[0];
+      if (bounced && ball.velocity.linear.y() <= 0) break;
+      bounced = bounced || ball.velocity.linear.y() > 0.1;
+      if (bounced) highest = std::max(highest, ball.position.y() - kRadius);
+    }
+    EXPECT_NEAR(highest, 2 * restitution * restitution, 0.02) << restitution;
+  }
+}
+
+/// Cubes of 1 m on each other that overlap by 10 cm each.
+SmallWorld SqueezedTower(bool relax, int frames, double* fastest) {
+  SmallWorld world = Relaxing(relax);
+  for (int i = 0; i < 5; ++i) {
+    world.things.push_back({.position = {0, 0.4 + 0.9 * i, 0}, .inertia = 1 / 6.0});
+  }
+  *fastest = 0;
+  for (int frame = 0; frame < frames; ++frame) {
+    world.Step([](SmallWorld* w) {
+      for (int i = 0; i < 5; ++i) {
+        const Vector3d centre = w->things[i].position;
+        const Vector3d below = i > 0 ? w->things[i - 1].position : Vector3d(0, -0.5, 0);
+        std::vector<TouchPoint> points;
+        for (std::uint32_t k = 0; k < 4; ++k) {
+          const Vector3d corner(k & 1 ? 0.5 : -0.5, -0.5, k & 2 ? 0.5 : -0.5);
+          points.push_back({centre + corner, below.y() + 0.5 - (centre.y() - 0.5), k});
+        }
+        w->contacts.Add({.body_a = i,
+                         .body_b = i - 1,
+                         .centre_a = centre,
+                         .centre_b = below,
+                         .id = static_cast<std::uint64_t>(i + 1)},
+                        points);
+      }
+    });
+    for (const Thing& thing : world.things) {
+      *fastest = std::max(*fastest, thing.velocity.linear.norm());
+    }
+  }
+  return world;
+}
+
+TEST(Relax, WhatOverlapsComesApartWithoutPopping) {
+  double pops = 0, creeps = 0;
+  SqueezedTower(false, 60, &pops);
+  const SmallWorld world = SqueezedTower(true, 300, &creeps);
+  EXPECT_GT(pops, 1);
+  EXPECT_LE(creeps, 0.02);
+  // a slop of 5 mm each is left
+  EXPECT_NEAR(world.things[4].position.y(), 4.5 - 5 * 0.005, 0.005);
+  EXPECT_LE(world.report.islands[0].speed, 1e-3);
+  EXPECT_GT(world.report.islands[0].quiet, 60);
+}
+
+TEST(Relax, WithoutErrorsIsTheSameToTheBit) {
+  const auto fill = [](SmallWorld* w) { Touches(0, w); };
+  const Velocity falls{.linear = {0.5, -3, 0}, .angular = {0, 400, 1}};
+  const SmallWorld one = StepOnce(false, {0, kRadius + 0.01, 0}, falls, fill);
+  const SmallWorld two = StepOnce(true, {0, kRadius + 0.01, 0}, falls, fill);
+  EXPECT_EQ(one.things[0].velocity.linear, two.things[0].velocity.linear);
+  EXPECT_EQ(one.things[0].velocity.angular, two.things[0].velocity.angular);
+  EXPECT_EQ(one.things[0].position, two.things[0].position);
+  EXPECT_EQ(one.things[0].turn.coeffs(), two.things[0].turn.coeffs());
+  EXPECT_EQ(one.report.sweeps, two.report.sweeps);
+}
+
+TEST(Relax, DoesSoInEachOfSubsteps) {
+  SmallWorld world = Relaxing();
+  world.gravity = 0;
+  world.solver.settings().substeps = 4;
+  world.things.push_back({.position = {0, kRadius - 0.03, 0}});
+  world.Step([](SmallWorld* w) { Touches(0, w); });
+  EXPECT_NEAR(world.things[0].position.y(), kRadius - 0.025, 1e-5);
+  EXPECT_NEAR(world.things[0].velocity.linear.y(), 0, 1e-4);
+}
+
+TEST(Relax, StaysInABudgetOfWork) {
+  for (const std::int64_t work : {0, 20, 100, 1000}) {
+    SmallWorld world = Relaxing();
+    world.solver.settings().budget = Budget::Work(work);
+    world.things.push_back({.position = {0, kRadius - 0.03, 0}});
+    world.Step([](SmallWorld* w) { Touches(0, w); });
+    EXPECT_LE(world.report.work, std::max<std::int64_t>(work, 2 * 2 * 3)) << work;
+  }
+}
+
+TEST(Relax, IsOffInAReplay) {
+  const Replay replay;
+  Settings settings;
+  settings.relax = true;
+  EXPECT_EQ(FindBadSetting(settings).name, nullptr);
+  settings.tuning.replay = &replay;
+  EXPECT_EQ(Describe(FindBadSetting(settings)), "relax is 1, must be 0 in a replay");
+}
+
+}  // namespace
+}  // namespace cairn
