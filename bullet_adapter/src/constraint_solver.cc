@@ -348,6 +348,7 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   Settings settings =
       ForGroup(impl_->settings, impl_->options, info, m_maxOverrideNumSolverIterations);
   settings.substeps = 1;  // Bullet moves the bodies
+  settings.relax = false;
   if (SweepsAsBullet(settings)) settings.tuning.lifted_friction = detail::LiftedFriction::kHold;
   const bool recording =
       impl_->BeginRecording(impl_->rows.problem(), {.rows = impl_->rows.impulses()});

@@ -46,7 +46,7 @@ class Solver {
     Solve(problem, Impulses{.rows = impulses}, velocities, report);
   }
 
-  std::span<const Velocity> mean_velocities() const;  ///< Move bodies; empty where they are none.
+  std::span<const Velocity> mean_velocities() const;  ///< Move bodies, with substeps or relax.
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();
   detail::Threads& threads();  ///< For hosts that read and write their objects on the same ones.

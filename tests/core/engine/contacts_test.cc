@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "tests/core/engine/small_world.h"
@@ -99,6 +100,22 @@ TEST(Contacts, BounceFromTheSpeedThatTheyHaveWhereTheGapCloses) {
   EXPECT_FLOAT_EQ(BiasOf(options, -0.03, falls(2)), -3);  // does not
   EXPECT_EQ(BiasOf(options, 0, falls(0.9)), 0);           // too slow
   EXPECT_EQ(BiasOf(options, 0, falls(-2)), 0);            // leaves
+}
+
+// Falling at 3 m/s, a step covers 5 cm: what is 8 cm away is not reached, the others bounce.
+TEST(Contacts, SayWhichBiasIsASpeed) {
+  const std::array bodies{Body{.inv_mass = 1, .velocity = {.linear = {0, -3, 0}}}};
+  const std::array points{TouchPoint{.depth = -0.08}, TouchPoint{.depth = -0.02},
+                          TouchPoint{.depth = 0.03}};
+  Contacts contacts;
+  for (const auto& [restitution, frequency, speeds] :
+       {std::tuple(0.5, 0.0, 6), {0.0, 0.0, 0}, {0.0, 5.0, 4}}) {
+    contacts.options().frequency = frequency;
+    contacts.Begin({bodies, 1 / 60.0});
+    contacts.Add({.body_a = 0, .restitution = restitution}, points);
+    ASSERT_EQ(contacts.manifolds().size(), size_t{1});
+    EXPECT_EQ(contacts.manifolds()[0].speeds, speeds) << restitution << ' ' << frequency;
+  }
 }
 
 TEST(Contacts, SoftOnesGiveLikeASpring) {

@@ -234,6 +234,7 @@ TEST(Joints, GearHasOneRowOfBothTurns) {
   EXPECT_NEAR(row.target, -0.5 * 0.01 / 0.01, 1e-6);
   EXPECT_EQ(joints.joints()[0].angular, 1u);
   EXPECT_EQ(joints.joints()[0].bounded, 0u);
+  EXPECT_EQ(joints.joints()[0].errors, 1u);
 }
 
 // A whole turn of either is no error, and half a tooth is the most.

@@ -57,6 +57,19 @@ TEST(Relax, DepthMovesABodyAndLeavesItAtRest) {
   EXPECT_NEAR(relaxed.things[0].velocity.linear.y(), 0, 1e-5);
 }
 
+// By hand: m g h. What pushed it out is no part of them.
+TEST(Relax, ImpulsesAreThoseOfTheVelocity) {
+  for (const int substeps : {1, 3}) {
+    SmallWorld world = Relaxing();
+    world.solver.settings().substeps = substeps;
+    world.things.push_back({.mass = 2, .position = {0, kRadius - 0.03, 0}});
+    world.Step([](SmallWorld* w) { Touches(0, w); });
+    EXPECT_NEAR(world.contacts.impulses()[0].normal, 2 * 9.81 * kStep, 1e-4) << substeps;
+    EXPECT_NEAR(world.things[0].velocity.linear.y(), 0, 1e-4) << substeps;
+    EXPECT_NEAR(world.things[0].position.y(), kRadius - 0.025, 1e-5) << substeps;
+  }
+}
+
 // A fifth of 0.1 m, and of 0.2 rad.
 TEST(Relax, JointsCloseAndLeaveTheirBodiesAtRest) {
   SmallWorld world = Relaxing();
