@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/core/engine/small_world.h"
+#include "tests/core/support/manifold_problems.h"
 
 namespace cairn {
 namespace {
@@ -273,6 +274,82 @@ TEST(Relax, WhatOverlapsComesApartWithoutPopping) {
     EXPECT_NEAR(world.things[4].position.y(), 4.5 - 5 * 0.005, 0.005);
     EXPECT_LE(world.report.islands[0].speed, 1e-3);
     EXPECT_GT(world.report.islands[0].quiet, 60);
+  }
+}
+
+/// A random scene with one solution: without friction, and soft everywhere. Some of its points and
+/// rows take back errors.
+test::ManifoldScene SoftScene(std::uint64_t seed) {
+  test::ManifoldScene scene = test::RandomManifolds(12, 20, seed);
+  test::AddJoints(8, seed, &scene);
+  // velocities are counted from the start of the step
+  for (Body& body : scene.bodies) {
+    if (!scene.motions.empty()) body.velocity = {};
+  }
+  std::uint32_t bits = static_cast<std::uint32_t>(seed) * 2654435761u;
+  for (Manifold& manifold : scene.manifolds) {
+    manifold.soft = true;
+    manifold.tangents = 0;
+    manifold.speeds = static_cast<std::uint8_t>((bits = bits * 1664525u + 1013904223u) >> 28);
+  }
+  for (ContactPoint& point : scene.points) {
+    point.restitution = point.friction = 0;
+    point.compliance = std::max(point.compliance, 0.05f);
+  }
+  for (Joint& joint : scene.joints) {
+    joint.soft = true;
+    joint.errors = (bits = bits * 1664525u + 1013904223u) >> 24;
+  }
+  for (JointRow& row : scene.joint_rows) row.compliance = std::max(row.compliance, 0.05f);
+  return scene;
+}
+
+/// What its second solve is to solve.
+test::ManifoldScene WithoutErrors(test::ManifoldScene scene) {
+  for (const Manifold& manifold : scene.manifolds) {
+    for (int p = 0; p < manifold.points; ++p) {
+      float& bias = scene.points[manifold.first_point + p].bias;
+      if ((manifold.speeds >> p & 1) == 0) bias = std::min(bias, 0.0f);
+    }
+  }
+  for (const Joint& joint : scene.joints) {
+    for (int i = 0; i < joint.rows; ++i) {
+      if ((joint.errors >> i & 1) != 0) scene.joint_rows[joint.first_row + i].target = 0;
+    }
+  }
+  return scene;
+}
+
+/// Largest difference, of a scene that is solved alone.
+double DifferenceTo(test::ManifoldScene scene, std::span<const Velocity> velocities) {
+  Solver solver({.path = Path::kReference, .max_sweeps = 20000, .tolerance = 1e-7});
+  std::vector<Velocity> alone(scene.bodies.size());
+  EXPECT_TRUE(solver.Solve(scene.problem(), scene.impulses(), alone).ok());
+  double largest = 0;
+  for (size_t i = 0; i < alone.size(); ++i) {
+    largest = std::max({largest, (alone[i].linear - velocities[i].linear).norm(),
+                        (alone[i].angular - velocities[i].angular).norm()});
+  }
+  return largest;
+}
+
+TEST(Relax, SolvesBothProblems) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    for (const Path path : {Path::kReference, Path::kFast}) {
+      SCOPED_TRACE(seed);
+      const bool exact = path == Path::kReference;
+      test::ManifoldScene scene = SoftScene(seed);
+      const test::ManifoldScene whole = scene, without = WithoutErrors(scene);
+      Solver solver(
+          {.path = path, .max_sweeps = 20000, .relax = true, .tolerance = exact ? 1e-7 : 2e-5});
+      std::vector<Velocity> velocities(scene.bodies.size());
+      const Report report = solver.Solve(scene.problem(), scene.impulses(), velocities);
+      ASSERT_TRUE(report.ok()) << Describe(report);
+      const double near = exact ? 1e-5 : 2e-3;
+      EXPECT_LE(DifferenceTo(whole, solver.mean_velocities()), near);
+      EXPECT_LE(DifferenceTo(without, velocities), near);
+      EXPECT_GT(DifferenceTo(whole, velocities), 0.01) << "nothing was relaxed";
+    }
   }
 }
 
