@@ -2,6 +2,7 @@
 #include "cycle/quiet_bodies.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace cairn {
@@ -36,12 +37,17 @@ void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> 
     if (at < 0) continue;
     IslandReport& island = report->islands[at];
     const Velocity end = EndOf(problem, velocities, i);
-    const double linear = end.linear.norm(), angular = end.angular.norm();
-    const bool is_quiet = linear < speed && angular < speed;
+    const double linear = end.linear.squaredNorm(), angular = end.angular.squaredNorm();
+    const bool is_quiet = linear < speed * speed && angular < speed * speed;
     count.solves = is_quiet ? std::min(count.solves + 1, kMost) : 0;
+    // squares until all are seen
     island.speed = std::max(island.speed, linear);
     island.spin = std::max(island.spin, angular);
     island.quiet = std::min(island.quiet, count.solves);
+  }
+  for (IslandReport& island : report->islands) {
+    island.speed = std::sqrt(island.speed);
+    island.spin = std::sqrt(island.spin);
   }
 }
 
