@@ -23,6 +23,10 @@ function(cairn_strict target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Files reuse names of helpers, and kernels include themselves, once per target.
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  if(MSVC)  # not tried; there /fp:precise fuses nothing since Visual Studio 2022
+    target_compile_options(${target} PRIVATE /W4 /permissive- /fp:precise $<$<BOOL:${CAIRN_WERROR}>:/WX>)
+    return()
+  endif()
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
                                            -fno-semantic-interposition
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)

@@ -4,7 +4,6 @@
 // [program]
 #include <cairn/solver.h>
 
-#include <Eigen/Geometry>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -13,17 +12,15 @@ int main() {
   // A ball of 2 kg and radius 0.1 m lands at 3 m/s forwards (x) and 4 m/s down (y).
   cairn::Body ball;
   ball.inv_mass = 1 / 2.0;
-  ball.inv_inertia = Eigen::Matrix3d::Identity() / (0.4 * 2.0 * 0.1 * 0.1);
+  const double turns = 1 / (0.4 * 2.0 * 0.1 * 0.1);
+  ball.inv_inertia = cairn::Matrix3::Diagonal(turns, turns, turns);
   ball.velocity.linear = {3, -4, 0};
 
   // One contact with the ground: a row that only pushes, and a friction row bounded by it.
-  const Eigen::Vector3d arm(0, -0.1, 0), up(0, 1, 0), forwards(1, 0, 0);
-  const cairn::Row normal{.body_a = 0, .linear_a = up, .angular_a = arm.cross(up), .lo = 0};
-  const cairn::Row friction{.body_a = 0,
-                            .linear_a = forwards,
-                            .angular_a = arm.cross(forwards),
-                            .parent = 0,
-                            .friction = 0.5};
+  // It is 0.1 m below the centre: r = (0, -0.1, 0), and what turns is r x n.
+  const cairn::Row normal{.body_a = 0, .linear_a = {0, 1, 0}, .lo = 0};
+  const cairn::Row friction{
+      .body_a = 0, .linear_a = {1, 0, 0}, .angular_a = {0, 0, 0.1}, .parent = 0, .friction = 0.5};
 
   const std::array bodies{ball};
   const std::array rows{normal, friction};
@@ -34,7 +31,7 @@ int main() {
   const cairn::Report report = solver.Solve({bodies, rows}, impulses, velocities);
   if (!report.ok()) return 1;
 
-  const Eigen::Vector3d& v = velocities[0].linear;
+  const cairn::Vector3& v = velocities[0].linear;
   std::printf("impulses %.3f and %.3f N s, rolls at %.3f m/s, residual %.0e m/s\n", impulses[0],
               impulses[1], v.x(), report.residual_max);
 }

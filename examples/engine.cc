@@ -32,7 +32,7 @@ struct Thing {
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   cairn::Velocity velocity = {};
 
-  bool moves() const { return !asleep && (mass > 0 || !velocity.linear.isZero(0)); }
+  bool moves() const { return !asleep && (mass > 0 || velocity.linear != cairn::Vector3()); }
 };
 
 // Thing 0 is the ground; every other one is a body, in the same order.
@@ -140,9 +140,9 @@ struct World {
 
 void Move(const cairn::Velocity& velocity, Thing* thing) {
   thing->velocity = velocity;
-  thing->position += kStep * velocity.linear;
-  const Eigen::AngleAxisd turn(kStep * velocity.angular.norm(), velocity.angular.normalized());
-  thing->turn = (turn * thing->turn).normalized();
+  thing->position += kStep * Vector3d(velocity.linear);
+  const Vector3d turn = kStep * Vector3d(velocity.angular);
+  thing->turn = (Eigen::AngleAxisd(turn.norm(), turn.normalized()) * thing->turn).normalized();
 }
 
 cairn::Report Step(World* world) {
@@ -214,7 +214,7 @@ int main() {
   Matrix3d upright;  // a hinge turns about its x axis: here the world's y
   upright << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   const int door = add({.mass = 20, .half = {0.5, 1, 0.05}, .position = {0, 1.2, 5}});
-  const cairn::JointAxis about{.lo = 0, .hi = 1.5, .speed = 1, .motor_most = 50};
+  const cairn::JointAxis about{.lo = 0, .hi = 1.5, .speed = 1, .max_motor_force = 50};
   link(cairn::HingeJoint(about), door, ground, {-0.5, 1.2, 5}, upright);
 
   // a ragdoll that falls: each limb turns in a cone, and is twisted a little

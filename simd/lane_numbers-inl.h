@@ -30,14 +30,14 @@ HWY_INLINE void Move(hn::CappedTag<float, most> d, V beta, V keep, float* now, f
 
 /// In registers of @p most lanes at most.
 template <int most>
-HWY_INLINE void MoveLanes(const Way* ways, const std::int32_t* of_lane, int lanes, int count,
-                          const Moving<Line>& numbers) {
+HWY_INLINE void MoveLanes(const Momentum* momenta, const std::int32_t* of_lane, int lanes,
+                          int count, const Moving<Line>& numbers) {
   const hn::CappedTag<float, most> d;
   const hn::RebindToSigned<decltype(d)> d_index;
   for (int l = 0; l < lanes; l += static_cast<int>(hn::MaxLanes(d))) {
     const auto index = hn::ShiftLeft<1>(hn::LoadU(d_index, of_lane + l));
-    const auto beta = hn::GatherIndex(d, &ways->beta, index);
-    const auto keep = hn::GatherIndex(d, &ways->keep, index);
+    const auto beta = hn::GatherIndex(d, &momenta->beta, index);
+    const auto keep = hn::GatherIndex(d, &momenta->keep, index);
     for (int i = 0; i < count; ++i) {
       Move<most>(d, beta, keep, numbers.now[i].lane + l, numbers.last[i].lane + l,
                  numbers.direction[i].lane + l);
@@ -45,21 +45,21 @@ HWY_INLINE void MoveLanes(const Way* ways, const std::int32_t* of_lane, int lane
   }
 }
 
-inline void MoveLines(const Way* ways, const std::int32_t* of_lane, int lanes, int count,
+inline void MoveLines(const Momentum* momenta, const std::int32_t* of_lane, int lanes, int count,
                       const Moving<Line>& numbers) {
   const FlushDenormals flush;
-  if (lanes <= 4) return MoveLanes<4>(ways, of_lane, lanes, count, numbers);
-  MoveLanes<kLanes>(ways, of_lane, lanes, count, numbers);
+  if (lanes <= 4) return MoveLanes<4>(momenta, of_lane, lanes, count, numbers);
+  MoveLanes<kLanes>(momenta, of_lane, lanes, count, numbers);
 }
 
-inline void MoveBodies(const Way* ways, const std::int32_t* of_body, int count,
+inline void MoveBodies(const Momentum* momenta, const std::int32_t* of_body, int count,
                        const Moving<BodyLane>& numbers) {
   constexpr int kNumbers = 8;
   const FlushDenormals flush;
   const hn::CappedTag<float, kNumbers> d;
   for (int i = 0; i < count; ++i) {
-    const Way& way = ways[of_body[i]];
-    const auto beta = hn::Set(d, way.beta), keep = hn::Set(d, way.keep);
+    const Momentum& momentum = momenta[of_body[i]];
+    const auto beta = hn::Set(d, momentum.beta), keep = hn::Set(d, momentum.keep);
     for (int k = 0; k < kNumbers; k += static_cast<int>(hn::MaxLanes(d))) {
       Move<kNumbers>(d, beta, keep, numbers.now[i].u + k, numbers.last[i].u + k,
                      numbers.direction[i].u + k);

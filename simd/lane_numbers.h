@@ -9,7 +9,7 @@
 namespace cairn::simd {
 
 /// How far something is to move along a direction, and 0 where that is to be forgotten, else 1.
-struct Way {
+struct Momentum {
   float beta = 0, keep = 0;
 };
 
@@ -25,11 +25,11 @@ struct Moving {
 struct LaneKernels {
   /// now += beta direction, direction := keep (now - last), last := now: so many lines, their first
   /// @p lanes lanes. Others may move or not.
-  /// @param ways  ways[of_lane[l]] is that of lane l
-  void (*move_lines)(const Way* ways, const std::int32_t* of_lane, int lanes, int count,
+  /// @param momenta  momenta[of_lane[l]] is that of lane l
+  void (*move_lines)(const Momentum* momenta, const std::int32_t* of_lane, int lanes, int count,
                      const Moving<Line>& numbers);
-  /// The same for so many bodies. @param ways  ways[of_body[i]] is that of body i
-  void (*move_bodies)(const Way* ways, const std::int32_t* of_body, int count,
+  /// The same for so many bodies. @param momenta  momenta[of_body[i]] is that of body i
+  void (*move_bodies)(const Momentum* momenta, const std::int32_t* of_body, int count,
                       const Moving<BodyLane>& numbers);
 
   /// Raises @p largest to the errors of so many blocks, those of their unused lanes aside. What is

@@ -14,6 +14,7 @@ endfunction()
 
 cairn_consumer_test(install install FIXTURES_SETUP installed)
 cairn_consumer_test(install_consumer_find_package find_package FIXTURES_REQUIRED installed)
+cairn_consumer_test(install_consumer_without_eigen without_eigen FIXTURES_REQUIRED installed)
 cairn_consumer_test(install_consumer_pkg_config pkg_config FIXTURES_REQUIRED installed)
 if(NOT BUILD_SHARED_LIBS)
   cairn_consumer_test(install_consumer_in_c_alone c_alone FIXTURES_REQUIRED installed)

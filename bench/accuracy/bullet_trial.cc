@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cairn/bullet/detail/group_rows.h"
+#include "cairn/detail/eigen.h"
 #include "measure/row_recorder.h"
 #include "support/machine/stopwatch.h"
 
@@ -23,9 +24,7 @@ class Stopwatch {
   double start_ = cli::Now(cli::SolverClock::kThreadCpu);
 };
 
-Eigen::Vector3d ToEigen(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-
-bool Moves(const Body& body) { return body.inv_mass > 0 || !body.inv_inertia.isZero(0); }
+bool Moves(const Body& body) { return body.inv_mass > 0 || !View(body.inv_inertia).isZero(0); }
 
 }  // namespace
 
@@ -34,8 +33,10 @@ std::vector<Velocity> RecordedSubstep::Changes() const {
   for (size_t i = 0; i < starts.size(); ++i) {
     const Start& start = starts[i];
     if (start.body == nullptr) continue;
-    changes[i] = {.linear = ToEigen(start.body->getLinearVelocity()) - start.velocity.linear,
-                  .angular = ToEigen(start.body->getAngularVelocity()) - start.velocity.angular};
+    const Velocity now{.linear = start.body->getLinearVelocity(),
+                       .angular = start.body->getAngularVelocity()};
+    changes[i] = {.linear = View(now.linear) - View(start.velocity.linear),
+                  .angular = View(now.angular) - View(start.velocity.angular)};
   }
   return changes;
 }
@@ -120,8 +121,8 @@ class BulletTrial::Solver : public bench::RowRecorder {
       const btSolverBody& body = m_tmpSolverBodyPool[i];
       recorded_->starts.push_back(
           {body.m_originalBody,
-           {.linear = ToEigen(body.m_linearVelocity + body.m_externalForceImpulse),
-            .angular = ToEigen(body.m_angularVelocity + body.m_externalTorqueImpulse)}});
+           {.linear = body.m_linearVelocity + body.m_externalForceImpulse,
+            .angular = body.m_angularVelocity + body.m_externalTorqueImpulse}});
     }
     recorded_ = nullptr;
   }

@@ -97,7 +97,7 @@ double MeasureBarrier() {
   constexpr int kStages = 20000, kParts = 8;
   detail::Threads threads;
   threads.Follow(2, nullptr);
-  const detail::Shift shift(&threads, 2);
+  const detail::AwakeHelpers awake(&threads, 2);
   const auto nothing = [](int, int) {};
   threads.For(kParts * 1000, 1, nothing);
   const auto begin = Span::Clock::now();

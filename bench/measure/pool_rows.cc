@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cairn/detail/eigen.h"
 #include "measure/row_velocities.h"
 
 namespace cairn::bench {
@@ -34,20 +35,20 @@ class Converter {
 
  private:
   void AddBody(const Body& body) {
-    const Eigen::Vector3d inv_mass = body.inv_mass * body.linear_factor;
-    const bool moves = !inv_mass.isZero(0) || !body.inv_inertia.isZero(0);
+    const Eigen::Vector3d inv_mass = body.inv_mass * View(body.linear_factor);
+    const bool moves = !inv_mass.isZero(0) || !View(body.inv_inertia).isZero(0);
     result_.bodies.push_back({.moves = moves, .inv_mass = inv_mass});
   }
 
   Eigen::Vector3d Response(int body, const Eigen::Vector3d& angular) const {
     if (body == kWorld) return Eigen::Vector3d::Zero();
-    return problem_.bodies[body].inv_inertia * angular;
+    return View(problem_.bodies[body].inv_inertia) * angular;
   }
   /// Its part of J M^-1 J'.
   double Diagonal(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) const {
     if (body == kWorld) return 0;
     const Velocity response = Respond(problem_.bodies[body], linear, angular);
-    return linear.dot(response.linear) + angular.dot(response.angular);
+    return linear.dot(View(response.linear)) + angular.dot(View(response.angular));
   }
 
   void AddRow(int index, Pool pool, double impulse) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "measure/reference.h"
+#include "cairn/detail/eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ std::vector<Velocity> ReadVelocities(std::span<btRigidBody* const> bodies) {
 double VelocityError(std::span<const Velocity> a, std::span<const Velocity> b) {
   double largest = 0;
   for (size_t i = 0; i < a.size(); ++i) {
-    const double difference = (a[i].linear - b[i].linear).norm();
+    const double difference = (View(a[i].linear) - View(b[i].linear)).norm();
     if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
     largest = std::max(largest, difference);
   }

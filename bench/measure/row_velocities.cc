@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "measure/row_velocities.h"
+#include "cairn/detail/eigen.h"
 
 namespace cairn::bench {
 namespace {
 
 void Add(const Velocity& change, double factor, Velocity* velocity) {
-  velocity->linear += factor * change.linear;
-  velocity->angular += factor * change.angular;
+  View(velocity->linear) += factor * View(change.linear);
+  View(velocity->angular) += factor * View(change.angular);
 }
 
 }  // namespace
 
 Velocity Respond(const Body& body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
-  return {.linear = body.inv_mass * body.linear_factor.cwiseProduct(linear),
-          .angular = body.inv_inertia * angular};
+  return {.linear = body.inv_mass * View(body.linear_factor).cwiseProduct(linear),
+          .angular = View(body.inv_inertia) * angular};
 }
 
 std::vector<Velocity> FreeVelocities(std::span<const Body> bodies) {
@@ -29,11 +30,11 @@ double RowSpeed(const Row& row, std::span<const Velocity> velocities) {
   double speed = 0;
   if (row.body_a != kWorld) {
     const Velocity& a = velocities[row.body_a];
-    speed += row.linear_a.dot(a.linear) + row.angular_a.dot(a.angular);
+    speed += View(row.linear_a).dot(View(a.linear)) + View(row.angular_a).dot(View(a.angular));
   }
   if (row.body_b != kWorld) {
     const Velocity& b = velocities[row.body_b];
-    speed += row.linear_b.dot(b.linear) + row.angular_b.dot(b.angular);
+    speed += View(row.linear_b).dot(View(b.linear)) + View(row.angular_b).dot(View(b.angular));
   }
   return speed;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cairn/detail/eigen.h"
 #include "measure/reference.h"
 
 namespace cairn::bench {
@@ -27,7 +28,7 @@ Eigen::Matrix3d Inertia(const Eigen::Matrix3d& inv_inertia) {
 VelocityNorm::VelocityNorm(std::span<const Body> bodies) {
   for (const Body& body : bodies) {
     Mass& mass = masses_.emplace_back();
-    mass.linear = (body.inv_mass * body.linear_factor).unaryExpr(&Inverse);
+    mass.linear = (body.inv_mass * View(body.linear_factor)).unaryExpr(&Inverse);
     mass.angular = Inertia(body.inv_inertia);
     total_mass_ += Inverse(body.inv_mass);
   }
@@ -37,7 +38,8 @@ VelocityDistance VelocityNorm::Between(std::span<const Velocity> a,
                                        std::span<const Velocity> b) const {
   double energy = 0;  // twice it
   for (size_t i = 0; i < masses_.size(); ++i) {
-    const Eigen::Vector3d v = a[i].linear - b[i].linear, w = a[i].angular - b[i].angular;
+    const Eigen::Vector3d v = View(a[i].linear) - View(b[i].linear),
+                          w = View(a[i].angular) - View(b[i].angular);
     energy += v.dot(masses_[i].linear.cwiseProduct(v)) + w.dot(masses_[i].angular * w);
   }
   if (!std::isfinite(energy)) energy = std::numeric_limits<double>::infinity();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "rigid/contact_matrix.h"
+#include "cairn/detail/eigen.h"
 
 #include <algorithm>
 #include <array>
@@ -19,13 +20,15 @@ struct Arm {
 using Arms = std::array<Arm, 2>;
 
 bool Moves(const Body& body) {
-  return body.inv_mass * body.linear_factor.maxCoeff() > 0 || !body.inv_inertia.isZero(0);
+  return body.inv_mass * View(body.linear_factor).maxCoeff() > 0 ||
+         !View(body.inv_inertia).isZero(0);
 }
 
 /// M^-1 times a vector of momenta.
 Vector6 Respond(const Body& body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
   Vector6 response;
-  response << body.inv_mass * body.linear_factor.cwiseProduct(linear), body.inv_inertia * angular;
+  response << body.inv_mass * View(body.linear_factor).cwiseProduct(linear),
+      View(body.inv_inertia) * angular;
   return response;
 }
 
@@ -126,8 +129,8 @@ BoxedLcp ToBoxed(const ContactProblem& problem) {
   std::vector<Vector6> free;
   for (const Body& body : problem.bodies) {
     Vector6 velocity = Respond(body, body.impulse, body.angular_impulse);
-    velocity.head<3>() += body.velocity.linear;
-    velocity.tail<3>() += body.velocity.angular;
+    velocity.head<3>() += View(body.velocity.linear);
+    velocity.tail<3>() += View(body.velocity.angular);
     free.push_back(velocity);
   }
 
@@ -141,12 +144,12 @@ BoxedLcp ToBoxed(const ContactProblem& problem) {
     boxed.q[i] = -row.target;
     // Also of bodies that cannot be pushed: kinematic ones move
     if (row.body_a != kWorld) {
-      boxed.q[i] += row.linear_a.dot(free[row.body_a].head<3>()) +
-                    row.angular_a.dot(free[row.body_a].tail<3>());
+      boxed.q[i] += View(row.linear_a).dot(free[row.body_a].head<3>()) +
+                    View(row.angular_a).dot(free[row.body_a].tail<3>());
     }
     if (row.body_b != kWorld) {
-      boxed.q[i] += row.linear_b.dot(free[row.body_b].head<3>()) +
-                    row.angular_b.dot(free[row.body_b].tail<3>());
+      boxed.q[i] += View(row.linear_b).dot(free[row.body_b].head<3>()) +
+                    View(row.angular_b).dot(free[row.body_b].tail<3>());
     }
     boxed.lo[i] = row.lo;
     boxed.hi[i] = row.hi;

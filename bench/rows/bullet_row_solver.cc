@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "rows/bullet_row_solver.h"
 
+#include "cairn/detail/eigen.h"
 #include "measure/pool_rows.h"
 #include "measure/row_velocities.h"
 
@@ -8,9 +9,6 @@ namespace cairn::cli {
 namespace {
 
 Eigen::Vector3d Convert(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
-btVector3 Convert(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
 
 }  // namespace
 
@@ -31,8 +29,8 @@ std::string BulletRowSolver<Base>::Prepare(const RowProblem& problem) {
   bench::Push(rows, start, changes);
   for (size_t i = 0; i < changes.size(); ++i) {
     btSolverBody& body = pools_.bodies()[static_cast<int>(i)];
-    body.m_deltaLinearVelocity = Convert(changes[i].linear);
-    body.m_deltaAngularVelocity = Convert(changes[i].angular);
+    body.m_deltaLinearVelocity = btVector3(changes[i].linear);
+    body.m_deltaAngularVelocity = btVector3(changes[i].angular);
   }
   pools_.Begin();
   return {};
@@ -53,8 +51,8 @@ RowOutcome BulletRowSolver<Base>::Result() {
   outcome.velocities = free_;
   for (size_t i = 0; i < free_.size(); ++i) {
     const btSolverBody& body = pools_.bodies()[static_cast<int>(i)];
-    outcome.velocities[i].linear += Convert(body.m_deltaLinearVelocity);
-    outcome.velocities[i].angular += Convert(body.m_deltaAngularVelocity);
+    View(outcome.velocities[i].linear) += Convert(body.m_deltaLinearVelocity);
+    View(outcome.velocities[i].angular) += Convert(body.m_deltaAngularVelocity);
   }
   outcome.iterations = sweeps_;
   outcome.stop = "effort spent";

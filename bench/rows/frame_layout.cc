@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 
+#include "cairn/detail/eigen.h"
+
 namespace cairn::cli {
 namespace {
 
@@ -48,7 +50,7 @@ std::optional<Link> LinkOf(std::span<const Row> rows) {
   for (const Row& row : rows) {
     a.Add(row.linear_a, row.angular_a);
     b.Add(row.linear_b, row.angular_b);
-    holds |= !row.linear_a.isZero() || !row.linear_b.isZero();
+    holds |= !View(row.linear_a).isZero() || !View(row.linear_b).isZero();
   }
   if (!holds) return {};
   return Link{rows.front().body_a, rows.front().body_b, a.arm(), b.arm()};
@@ -114,7 +116,7 @@ FrameLayout::Box BoxOf(const Body& body) {
   FrameLayout::Box box{Vector3d::Zero(), Matrix3d::Identity(), Vector3d::Constant(kThinnest)};
   if (body.inv_mass <= 0) return box;
   box.mass = 1 / body.inv_mass;
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(body.inv_inertia);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(View(body.inv_inertia));
   if (solver.eigenvalues()[0] <= 0) {
     box.half.setConstant(std::clamp(0.5 * std::cbrt(box.mass / kDensity), kThinnest, kThickest));
     return box;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "verify/plain_world.h"
+#include "cairn/detail/eigen.h"
 
 #include <cmath>
 
@@ -155,8 +156,8 @@ void PlainWorld::Step() {
   for (size_t i = 0; i < things.size(); ++i) {
     Thing& thing = things[i];
     thing.velocity = velocities[i];
-    thing.position += kStep * velocities[i].linear;
-    thing.turn = thing.turn.Moved(kStep * velocities[i].angular);
+    thing.position += kStep * View(velocities[i].linear);
+    thing.turn = thing.turn.Moved(kStep * View(velocities[i].angular));
   }
 }
 

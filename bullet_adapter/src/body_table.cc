@@ -115,9 +115,9 @@ void BodyTable::EnterInOrder(std::span<btCollisionObject* const> objects,
     const btCollisionObject* const object = objects[i];
     PrefetchAhead(objects, i);
     const int before = size();
-    const Party& party = PartyOf(*object);
-    if (party.number < before || !party.reacts) continue;
-    terms.Add(*rigids_[party.number], party.number);
+    const ContactEnd& end = EndOf(*object);
+    if (end.number < before || !end.reacts) continue;
+    terms.Add(*rigids_[end.number], end.number);
   }
   terms.End();
 }
@@ -160,7 +160,7 @@ BodyTable::Part BodyTable::Count(std::span<btCollisionObject* const> objects) {
     part.regular = index >= 0 && index < static_cast<int>(slots_.size()) &&
                    claims_[index].exchange(substep_, std::memory_order_relaxed) != substep_;
     if (!part.regular) return part;
-    Party unused;
+    ContactEnd unused;
     if (Describe(*objects[i], &unused) != nullptr) ++part.bodies;
   }
   return part;
@@ -176,13 +176,13 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
     Slot& slot = slots_[object.getWorldArrayIndex()];
     slot.object = &object;
     slot.substep = substep_;
-    btRigidBody* const rigid = Describe(object, &slot.party);
+    btRigidBody* const rigid = Describe(object, &slot.end);
     if (rigid == nullptr) continue;
-    slot.party.number = number;
+    slot.end.number = number;
     bodies_[number] = ToBody(*rigid);
     motions_[number] = MotionOf(*rigid, time_step_);
     rigids_[number] = rigid;
-    if (slot.party.reacts) terms.Add(*rigid, number);
+    if (slot.end.reacts) terms.Add(*rigid, number);
     ++number;
   }
   terms.End();
@@ -194,46 +194,46 @@ void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
     const Eigen::Vector3d torque_spin =
         ToEigen(rigids_[raised.body]->getTotalTorque() *
                 rigids_[raised.body]->getInvInertiaTensorWorld() * time_step_);
-    const Eigen::Vector3d change =
-        raised.response * torque_spin - torque_spin - raised.damping * ToEigen(motion.spin);
+    const Eigen::Vector3d change = Eigen::Matrix3d(raised.response) * torque_spin - torque_spin -
+                                   Eigen::Matrix3d(raised.damping) * ToEigen(motion.spin);
     for (int k = 0; k < 3; ++k) motion.external_spin[k] += static_cast<btScalar>(change[k]);
   }
 }
 
-const Party& BodyTable::Enter(const btCollisionObject& object) {
+const ContactEnd& BodyTable::Enter(const btCollisionObject& object) {
   const int index = object.getWorldArrayIndex();
   if (index >= static_cast<int>(slots_.size())) slots_.resize(index + 1);
   if (index >= 0 && slots_[index].substep != substep_) {
     Slot& slot = slots_[index];
     slot.object = &object;
     slot.substep = substep_;
-    Fill(object, &slot.party);
-    return slot.party;
+    Fill(object, &slot.end);
+    return slot.end;
   }
   const auto [entry, is_new] = strangers_.try_emplace(&object);
   if (is_new) Fill(object, &entry->second);
   return entry->second;
 }
 
-btRigidBody* BodyTable::Describe(const btCollisionObject& object, Party* party) {
+btRigidBody* BodyTable::Describe(const btCollisionObject& object, ContactEnd* end) {
   using Object = btCollisionObject;
   const btVector3& at = object.getWorldTransform().getOrigin();
-  for (int k = 0; k < 3; ++k) party->at[k] = at[k];
-  party->number = kWorld;
-  party->reacts = false;
-  party->slides_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_FRICTION);
-  party->rolls_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_ROLLING_FRICTION);
+  for (int k = 0; k < 3; ++k) end->at[k] = at[k];
+  end->number = kWorld;
+  end->reacts = false;
+  end->slides_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_FRICTION);
+  end->rolls_unevenly = object.hasAnisotropicFriction(Object::CF_ANISOTROPIC_ROLLING_FRICTION);
   // the solver of a world may write to its bodies, though manifolds hold them as const
   btRigidBody* const rigid = btRigidBody::upcast(const_cast<btCollisionObject*>(&object));
   if (rigid == nullptr) return nullptr;
-  party->reacts = Reacts(*rigid);
-  return party->reacts || rigid->isKinematicObject() ? rigid : nullptr;
+  end->reacts = Reacts(*rigid);
+  return end->reacts || rigid->isKinematicObject() ? rigid : nullptr;
 }
 
-void BodyTable::Fill(const btCollisionObject& object, Party* party) {
-  btRigidBody* const rigid = Describe(object, party);
+void BodyTable::Fill(const btCollisionObject& object, ContactEnd* end) {
+  btRigidBody* const rigid = Describe(object, end);
   if (rigid == nullptr) return;
-  party->number = size();
+  end->number = size();
   bodies_.push_back(ToBody(*rigid));
   motions_.push_back(MotionOf(*rigid, time_step_));
   rigids_.push_back(rigid);

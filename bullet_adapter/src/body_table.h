@@ -34,7 +34,7 @@ struct Motion {
 };
 
 /// One of the two objects that a contact or a joint is between.
-struct Party {
+struct ContactEnd {
   btScalar at[3] = {0, 0, 0};                            ///< Where it is [m].
   int number = kWorld;                                   ///< In the BodyTable.
   bool reacts = false;                                   ///< Impulses move it.
@@ -58,28 +58,28 @@ class BodyTable {
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
   /// first asked for. The reference is good until another object is asked for.
-  const Party& PartyOf(const btCollisionObject& object) {
+  const ContactEnd& EndOf(const btCollisionObject& object) {
     const int index = object.getWorldArrayIndex();
     if (index >= 0 && index < static_cast<int>(slots_.size())) {
       const Slot& slot = slots_[index];
-      if (slot.substep == substep_ && slot.object == &object) return slot.party;
+      if (slot.substep == substep_ && slot.object == &object) return slot.end;
     }
     return Enter(object);
   }
 
   /// An object that was listed or asked for before, or nullptr. Any thread may ask, while none
   /// enters another one.
-  const Party* Find(const btCollisionObject& object) const {
+  const ContactEnd* Find(const btCollisionObject& object) const {
     const int index = object.getWorldArrayIndex();
     if (index >= 0 && index < static_cast<int>(slots_.size())) {
       const Slot& slot = slots_[index];
-      if (slot.substep == substep_ && slot.object == &object) return &slot.party;
+      if (slot.substep == substep_ && slot.object == &object) return &slot.end;
     }
     if (strangers_.empty()) return nullptr;
     const auto stranger = strangers_.find(&object);
     return stranger == strangers_.end() ? nullptr : &stranger->second;
   }
-  /// Where most parties are. While that stays they stay where they are.
+  /// Where most ends are. While that stays they stay where they are.
   const void* place() const { return slots_.data(); }
 
   int size() const { return static_cast<int>(bodies_.size()); }
@@ -98,7 +98,7 @@ class BodyTable {
   struct Slot {
     const btCollisionObject* object = nullptr;
     unsigned substep = 0;
-    Party party;
+    ContactEnd end;
   };
 
   /// What a part of the list comes to.
@@ -116,11 +116,11 @@ class BodyTable {
   void EnterPart(std::span<btCollisionObject* const> objects, int first,
                  const btContactSolverInfo& info);
   /// One that has no slot yet, or none of its own.
-  const Party& Enter(const btCollisionObject& object);
+  const ContactEnd& Enter(const btCollisionObject& object);
   /// Fills it where it stays: a copy would wait for what was just written.
-  void Fill(const btCollisionObject& object, Party* party);
-  /// What a party is, its number apart. Returns the body that is to have one, or nullptr.
-  static btRigidBody* Describe(const btCollisionObject& object, Party* party);
+  void Fill(const btCollisionObject& object, ContactEnd* end);
+  /// What a end is, its number apart. Returns the body that is to have one, or nullptr.
+  static btRigidBody* Describe(const btCollisionObject& object, ContactEnd* end);
 
   unsigned substep_ = 0;
   btScalar time_step_ = 0;
@@ -130,7 +130,7 @@ class BodyTable {
   size_t claims_size_ = 0;
   std::vector<Part> parts_;
   /// Objects in no world, or with the index of another one from another world.
-  std::unordered_map<const btCollisionObject*, Party> strangers_;
+  std::unordered_map<const btCollisionObject*, ContactEnd> strangers_;
 
   std::vector<Body> bodies_;
   std::vector<Motion> motions_;

@@ -268,7 +268,8 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   threads.Follow(impl_->settings.threads, impl_->settings.executor);
   threads.RecordTo(impl_->settings.tuning.spans);
   // from reading to writing back; how many are worth it the last substep tells
-  const detail::Shift shift(&threads, detail::ThreadsFor(fast.rows(), impl_->settings.threads));
+  const detail::AwakeHelpers awake(&threads,
+                                   detail::ThreadsFor(fast.rows(), impl_->settings.threads));
   {
     const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
     Options options = impl_->options;

@@ -128,7 +128,7 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   const int sweeps = own > 0 ? own : info.m_numIterations;
   most_sweeps_ = std::max(most_sweeps_, sweeps);
   const btRigidBody &a = joint->getRigidBodyA(), &b = joint->getRigidBodyB();
-  const Party party_a = bodies_->PartyOf(a), party_b = bodies_->PartyOf(b);
+  const ContactEnd party_a = bodies_->EndOf(a), party_b = bodies_->EndOf(b);
   if (!party_a.reacts && !party_b.reacts) return result;
   const int max_sweeps = limits == SweepLimits::kBullet ? sweeps : std::numeric_limits<int>::max();
 

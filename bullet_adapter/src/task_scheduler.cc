@@ -100,7 +100,7 @@ struct TaskScheduler::Impl {
       {
         Loop<DoGrain> loop(grains, caller, &seats, do_grain);
         const int most = std::min(count, grains);
-        const detail::Shift shift(&threads, most);
+        const detail::AwakeHelpers awake(&threads, most);
         threads.Do(most, &loop);
       }
       btPopThreadsAreRunning();

@@ -354,6 +354,8 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   }
   if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
   if (!report->ok()) return;
+  const Attempt attempt(this);
+  quiet.Reserve(problem.bodies.size());
   if (settings.substeps == 1 && !settings.relax) {
     SolveAtOnce(problem, impulses, velocities, report);
   } else {
@@ -408,7 +410,6 @@ std::span<const Velocity> Solver::mean_velocities() const {
 
 void Solver::Impl::SolveAtOnce(const ContactProblem& problem, const Impulses& impulses,
                                std::span<Velocity> velocities, Report* report) {
-  const Attempt attempt(this);
   bool in_blocks = InBlocks(problem, settings);
   WorkPrices* const prices = in_blocks ? &block_prices : &row_prices;
   BudgetMeter meter = MeterOf(settings, problem, prices);

@@ -82,7 +82,7 @@ class Cairn(ConanFile):
         core = self.cpp_info.components["core"]
         core.set_property("cmake_target_name", "cairn::cairn")
         core.libs = ["cairn"]
-        core.requires = ["eigen::eigen", "highway::hwy"] + (["onetbb::libtbb"] if self.options.tbb else [])
+        core.requires = ["highway::hwy"] + (["onetbb::libtbb"] if self.options.tbb else [])
         if self.settings.os in ("Linux", "FreeBSD"):
             core.system_libs = ["m", "pthread"]
         names = {"lcp": "lcp", "c": "c"}
@@ -92,6 +92,6 @@ class Cairn(ConanFile):
             part = self.cpp_info.components[component]
             part.set_property("cmake_target_name", f"cairn::{name}")
             part.libs = [f"cairn-{name}"]
-            part.requires = ["core"] + (["bullet3::bullet3"] if component == "bullet" else [])
+            part.requires = ["core"] + {"bullet": ["bullet3::bullet3"], "lcp": ["eigen::eigen"]}.get(component, [])
             if name == "bullet-float64":
                 part.defines = ["BT_USE_DOUBLE_PRECISION"]

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "accuracy/grid/grid.h"
+#include "cairn/detail/eigen.h"
 #include "measure/velocity_norm.h"
 #include "scenes/facts.h"
 
@@ -43,8 +44,8 @@ TEST(VelocityNorm, WeighsMassesAndInertias) {
 TEST(VelocityNorm, LeavesOutWhatCannotMove) {
   std::vector<Body> bodies = {Body{}, BodyOf(1, 1)};
   bodies[1].linear_factor.y() = 0;
-  bodies[1].inv_inertia.row(0).setZero();
-  bodies[1].inv_inertia.col(0).setZero();
+  View(bodies[1].inv_inertia).row(0).setZero();
+  View(bodies[1].inv_inertia).col(0).setZero();
   std::vector<Velocity> right(2), wrong(2);
   wrong[0].angular.x() = 5;
   wrong[1].linear.y() = wrong[1].angular.x() = 5;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/lcp/solver.h"
 #include "cairn/solver.h"
 #include "rigid/castle.h"
@@ -41,11 +42,11 @@ ContactFrame RandomFrame(std::uint64_t seed) {
   test::Scene scene = test::RandomPile({.bodies = 12, .contacts = 25, .pins = 4}, seed);
   scene.bodies[3].linear_factor = {1, 0, 0.5};
   scene.bodies[4].inv_mass = 0;  // turns about a fixed point
-  scene.bodies[5].inv_inertia.setZero();
+  View(scene.bodies[5].inv_inertia).setZero();
   ContactFrame frame{.bodies = scene.bodies, .rows = {}, .impulses = {}};
   // Kinematic: moves, and cannot be pushed
   frame.bodies[6].inv_mass = 0;
-  frame.bodies[6].inv_inertia.setZero();
+  View(frame.bodies[6].inv_inertia).setZero();
   test::Random random(seed);
   for (Row& row : scene.rows) row.compliance = random.Uniform(0, 0.1);
   frame.rows = scene.rows;

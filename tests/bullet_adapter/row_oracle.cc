@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bullet_adapter/src/conversions.h"
+#include "cairn/detail/eigen.h"
 #include "cairn/detail/threads.h"
 #include "measure/instrumented_solver.h"
 #include "problem/contact_expansion.h"
@@ -214,11 +215,11 @@ class PointComparison {
     for (int k = 0; k < point_.frictions; ++k) {
       const Row &actual = frictions_[k], &expected = rows_[point_.friction_row + k];
       EXPECT_FLOAT_EQ(static_cast<float>(actual.friction), static_cast<float>(expected.friction));
-      EXPECT_NEAR(actual.linear_a.norm(), 1, kFloats);
-      EXPECT_NEAR(actual.linear_a.dot(normal_.linear_a), 0, kFloats);
+      EXPECT_NEAR(View(actual.linear_a).norm(), 1, kFloats);
+      EXPECT_NEAR(View(actual.linear_a).dot(View(normal_.linear_a)), 0, kFloats);
       if (std::abs(rows_[point_.friction_row].target) < kSlides) continue;
-      const double along =
-          actual.linear_a.dot(expected.linear_a) + actual.linear_b.dot(expected.linear_b);
+      const double along = View(actual.linear_a).dot(View(expected.linear_a)) +
+                           View(actual.linear_b).dot(View(expected.linear_b));
       ExpectClose(actual, expected, along < 0 ? -1 : 1);
     }
     CompareTwists();

@@ -20,7 +20,7 @@ SHOWN = {
     "cairn-c": r"cairn[A-Z]\w+$",
 }
 # At most so many functions.
-MOST = {"cairn": 130, "cairn-lcp": 30, "cairn-bullet": 50, "cairn-bullet-float64": 50, "cairn-c": 40}
+MOST = {"cairn": 130, "cairn-lcp": 30, "cairn-bullet": 75, "cairn-bullet-float64": 75, "cairn-c": 40}
 
 
 def run(*command):

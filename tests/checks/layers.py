@@ -87,7 +87,8 @@ THIRD_PARTIES = {
     "Eigen's sparse factorisations": (
         r"(unsupported/)?Eigen/(Sparse(Cholesky|LU|QR)?|.*Support|Iterative.*)$",
         r"bench/micro/cholesky/eigen_cholesky\.|tests/"),
-    "Eigen": (r"(unsupported/)?Eigen/", r"core/|bullet_adapter/|bench/|examples/|tests/"),
+    "Eigen": (r"(unsupported/)?Eigen/",
+              r"core/(src|lcp)/|core/include/cairn/detail/eigen\.h$|bullet_adapter/src/|bench/|examples/|tests/"),
     "Bullet": (r"bt\w+\.h$|(Bullet\w+|LinearMath|bullet)/", r"bullet_adapter/|bench/|examples/|tests/"),
     "command line, JSON, text": (r"(CLI|nlohmann|fmt)/", r"bench/|tests/bench/"),
     "DART": (r"dart/.*\.hpp$", r"examples/dart/"),

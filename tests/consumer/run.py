@@ -43,9 +43,9 @@ class Consumer:
         return [self.args.cmake, "-S", HERE, "-B", self.folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug",
                 f"-DCMAKE_CXX_COMPILER={self.args.cxx}", f"-DCMAKE_PREFIX_PATH={self.prefix}", *options]
 
-    def build_and_run(self):
+    def build_and_run(self, *others):
         call([self.args.cmake, "--build", self.folder])
-        for program in ("embed", "engine", "tower", "mixed_lcp", "bullet_swap", "bullet_swap_float64"):
+        for program in ("embed", "tower", "bullet_swap", "bullet_swap_float64", *others):
             call([os.path.join(self.folder, program)])
 
     def flags(self, package, kind):
@@ -69,14 +69,22 @@ class Consumer:
 
     def find_package(self):
         call(self.configure("-DCONSUMER_COMPONENTS=Core;C;Lcp;Bullet;BulletFloat64"))
+        self.build_and_run("engine", "mixed_lcp")
+
+    def without_eigen(self):
+        for components in ("Core;C;Bullet;BulletFloat64", ""):
+            call(self.configure(f"-DCONSUMER_COMPONENTS={components}", "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"))
         self.build_and_run()
+        for package in ("cairn", "cairn-c", "cairn-bullet"):
+            if "eigen" in " ".join(self.flags(package, "--cflags")):
+                sys.exit(f"pkg-config: {package} asks for Eigen")
 
     def add_subdirectory(self):
         # What only our own tools and tests need must not be asked of a parent project.
         ours = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON"
                 for name in ("CLI11", "fmt", "nlohmann_json", "GTest", "rapidcheck", "Python3")]
         call(self.configure(f"-DCONSUMER_CAIRN_SOURCE={ROOT}", *ours))
-        self.build_and_run()
+        self.build_and_run("engine", "mixed_lcp")
 
     def unoptimised(self):
         program = os.path.join(self.args.build, "tests", "consumer_add_subdirectory", "same_bits")
@@ -94,8 +102,9 @@ class Consumer:
 
     def c_alone(self):
         # of a static Cairn, that is; a shared one brings its own libraries with it
+        shutil.rmtree(self.folder, ignore_errors=True)
         call([self.args.cmake, "-S", os.path.join(HERE, "c"), "-B", self.folder, "-G", "Ninja",
-              f"-DCMAKE_C_COMPILER={self.args.cc}", f"-DCMAKE_PREFIX_PATH={self.prefix}", "--fresh",
+              f"-DCMAKE_C_COMPILER={self.args.cc}", f"-DCMAKE_PREFIX_PATH={self.prefix}",
               "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"])
         call([self.args.cmake, "--build", self.folder])
         call([os.path.join(self.folder, "tower")])
@@ -106,6 +115,8 @@ class Consumer:
     def missing_component(self):
         refused(self.configure("-DCONSUMER_COMPONENTS=Bullet", "-DCMAKE_DISABLE_FIND_PACKAGE_CairnBullet=ON"),
                 "cairn has no component Bullet: its Bullet was not found .*libbullet-dev")
+        refused(self.configure("-DCONSUMER_COMPONENTS=Lcp", "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"),
+                "cairn has no component Lcp: Eigen 3.4 was not found .*libeigen3-dev")
         refused(self.configure("-DCONSUMER_COMPONENTS=Dynamics"),
                 "cairn has no component Dynamics: there are only Core, C, Lcp, Bullet and BulletFloat64")
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "cairn/detail/eigen.h"
 #include "problem/contact_expansion.h"
 #include "reference/pack.h"
 
@@ -171,8 +172,9 @@ double Judge::Scale(const GameWorld& after, const std::vector<double>& x) const 
   for (size_t i = 0; i < rows.bodies.size(); ++i) {
     WhitenedBody body;
     Whiten(rows.bodies[i], &body);
-    fastest = std::max({fastest, body.free.linear.norm(), body.free.angular.norm(),
-                        after.velocities[i].linear.norm(), after.velocities[i].angular.norm()});
+    fastest = std::max({fastest, View(body.free.linear).norm(), View(body.free.angular).norm(),
+                        View(after.velocities[i].linear).norm(),
+                        View(after.velocities[i].angular).norm()});
   }
   for (const ContactMotion& motion : before_.motions) {
     for (const float* from : {motion.free_velocity, motion.free_spin}) {
@@ -187,8 +189,8 @@ double Judge::Scale(const GameWorld& after, const std::vector<double>& x) const 
       const double d = packed.rows[k].diagonal;
       if (d <= 0) continue;
       const Row& row = rows.rows[island.rows[k]];
-      const double j =
-          row.linear_a.norm() + row.angular_a.norm() + row.linear_b.norm() + row.angular_b.norm();
+      const double j = View(row.linear_a).norm() + View(row.angular_a).norm() +
+                       View(row.linear_b).norm() + View(row.angular_b).norm();
       const int index = island.rows[k];
       const double impulse = std::max(std::abs(x[index]), std::abs(begin[index]));
       scale += std::sqrt(d) * impulse + (j * fastest + std::abs(row.target)) / std::sqrt(d);

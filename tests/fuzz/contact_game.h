@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/solver.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/play.h"

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/eigen.h"
 #include "tests/fuzz/contact_game.h"
 
 namespace cairn::test {
@@ -67,7 +68,7 @@ Row GameMaker::MakeRow(const GameWorld& world) {
   row.body_a = AnyBody(world);
   row.body_b = AnyBody(world);
   row.linear_a = choices_.OneIn(6) ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : Vector();
-  row.linear_b = choices_.OneIn(4) ? Vector() : Eigen::Vector3d(-row.linear_a);
+  row.linear_b = choices_.OneIn(4) ? Vector() : Eigen::Vector3d(-View(row.linear_a));
   row.angular_a = Vector();
   row.angular_b = Vector();
   row.target = numbers_.Real();

@@ -40,9 +40,9 @@ struct State {
     }
   }
   Moving<Numbers> moving() { return {now.data(), last.data(), direction.data()}; }
-  void Move(size_t i, const Way& way) {
-    const float moved = *At(&now, i) + way.beta * *At(&direction, i);
-    *At(&direction, i) = way.keep * (moved - *At(&last, i));
+  void Move(size_t i, const Momentum& momentum) {
+    const float moved = *At(&now, i) + momentum.beta * *At(&direction, i);
+    *At(&direction, i) = momentum.keep * (moved - *At(&last, i));
     *At(&now, i) = *At(&last, i) = moved;
   }
   void Copy(size_t i, State* to) {
@@ -58,8 +58,8 @@ struct State {
   }
 };
 
-// The first way is of lanes and slots that belong to no island.
-const std::vector<Way> kWays = {{0, 0}, {0.25f, 1}, {0.9f, 1}, {0, 0}, {0.5f, 1}};
+// The first momentum is of lanes and slots that belong to no island.
+const std::vector<Momentum> kWays = {{0, 0}, {0.25f, 1}, {0.9f, 1}, {0, 0}, {0.5f, 1}};
 
 TEST(LaneNumbers, MoveLinesOfEveryLaneInItsWay) {
   for (const Target target : SupportedTargets()) {

@@ -118,7 +118,7 @@ void AddImpulse(const Row& row, double change, Vector12* u) {
 }
 
 /// w, and the size of what it is the sum of.
-double Slack(const Row& row, double x, Lane* lane) {
+double RelativeVelocity(const Row& row, double x, Lane* lane) {
   double w = row.compliance * x - row.target;
   double size = std::abs(row.compliance * x) + std::abs(row.target) + std::abs(x);
   double longest = 1;
@@ -151,7 +151,7 @@ void Count(const Row& row, double change, Lane* lane) {
 void Start(Lane* lane) {
   for (std::size_t i = 0; i < lane->rows.size(); ++i) {
     AddImpulse(lane->rows[i], lane->x[i], &lane->u);
-    Slack(lane->rows[i], lane->x[i], lane);
+    RelativeVelocity(lane->rows[i], lane->x[i], lane);
   }
 }
 
@@ -160,7 +160,7 @@ void Sweep(const PairScene& scene, Lane* lane) {
     const Row& row = lane->rows[i];
     const bool lifted = row.shape.parent >= 0 && lane->x[row.shape.parent] <= 0;
     if (scene.sweep >= row.shape.max_sweeps || (scene.hold_lifted && lifted)) continue;
-    const double old = lane->x[i], w = Slack(row, old, lane);
+    const double old = lane->x[i], w = RelativeVelocity(row, old, lane);
     lane->x[i] = Clamp(row, *lane, old - row.step * w);
     AddImpulse(row, lane->x[i] - old, &lane->u);
     Count(row, lane->x[i] - old, lane);
@@ -170,7 +170,7 @@ void Sweep(const PairScene& scene, Lane* lane) {
 void Measure(Lane* lane) {
   for (std::size_t i = 0; i < lane->rows.size(); ++i) {
     const Row& row = lane->rows[i];
-    const double x = lane->x[i], w = Slack(row, x, lane);
+    const double x = lane->x[i], w = RelativeVelocity(row, x, lane);
     Count(row, Clamp(row, *lane, x - row.step / row.relaxation * w) - x, lane);
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/eigen.h"
 #include "run/scene_run.h"
 
 namespace cairn::micro {
@@ -17,8 +18,8 @@ constexpr double kContactEps = 3e-3, kJointEps = 1e-4;
 /// R with M^-1 = R R'.
 Block6 RootOf(const Body& body) {
   Block6 root = Block6::Zero();
-  root.diagonal().head<3>() = (body.inv_mass * body.linear_factor).cwiseSqrt();
-  root.bottomRightCorner<3, 3>() = body.inv_inertia.llt().matrixL();
+  root.diagonal().head<3>() = (body.inv_mass * View(body.linear_factor)).cwiseSqrt();
+  root.bottomRightCorner<3, 3>() = View(body.inv_inertia).llt().matrixL();
   return root;
 }
 
@@ -58,8 +59,8 @@ class Assembly {
   void Add(const Row& row, double x) {
     const int a = Moving(row.body_a), b = Moving(row.body_b);
     Vector6 j_a, j_b, g_a = Vector6::Zero(), g_b = Vector6::Zero();
-    j_a << row.linear_a, row.angular_a;
-    j_b << row.linear_b, row.angular_b;
+    j_a << View(row.linear_a), View(row.angular_a);
+    j_b << View(row.linear_b), View(row.angular_b);
     if (a >= 0) g_a = roots_[row.body_a].transpose() * j_a;
     if (b >= 0) g_b = roots_[row.body_b].transpose() * j_b;
     if (a >= 0 || b >= 0) matrix_.all_rows.push_back({a, b, g_a, g_b});

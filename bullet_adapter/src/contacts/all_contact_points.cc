@@ -81,8 +81,8 @@ void ContactPoints::FindEntries(std::span<btPersistentManifold* const> manifolds
 
 void ContactPoints::MeetStrangers(BodyTable* bodies, Part* part) const {
   std::erase_if(part->entries, [&](Entry& entry) {
-    if (entry.a == nullptr) entry.a = &bodies->PartyOf(*entry.manifold->getBody0());
-    if (entry.b == nullptr) entry.b = &bodies->PartyOf(*entry.manifold->getBody1());
+    if (entry.a == nullptr) entry.a = &bodies->EndOf(*entry.manifold->getBody0());
+    if (entry.b == nullptr) entry.b = &bodies->EndOf(*entry.manifold->getBody1());
     if (entry.a->reacts || entry.b->reacts) return false;
     part->points -= entry.manifold->getNumContacts();
     return true;

@@ -138,8 +138,8 @@ void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& inf
                   const ContactStart& start, BodyTable* bodies, ManifoldInput* result) {
   result->points = 0;
   if (manifold->getNumContacts() == 0) return;
-  const Party a = bodies->PartyOf(*manifold->getBody0());
-  const Party b = bodies->PartyOf(*manifold->getBody1());
+  const ContactEnd a = bodies->EndOf(*manifold->getBody0());
+  const ContactEnd b = bodies->EndOf(*manifold->getBody1());
   if (!a.reacts && !b.reacts) return;
   result->body_a = a.number;
   result->body_b = b.number;

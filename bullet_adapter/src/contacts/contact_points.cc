@@ -79,7 +79,7 @@ void ContactPoints::Describe(const Ends& ends, const Features& found, size_t fir
 bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
                            SplitImpulse* pushes) {
   if (manifold->getNumContacts() == 0) return true;
-  const Ends ends{bodies->PartyOf(*manifold->getBody0()), bodies->PartyOf(*manifold->getBody1())};
+  const Ends ends{bodies->EndOf(*manifold->getBody0()), bodies->EndOf(*manifold->getBody1())};
   if (!Takes(ends, {})) return false;
   if (!ends.a.reacts && !ends.b.reacts) return true;
   MakeRoom(manifold->getNumContacts());

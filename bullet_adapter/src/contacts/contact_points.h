@@ -55,12 +55,12 @@ class ContactPoints {
 
  private:
   struct Ends {
-    Party a, b;
+    ContactEnd a, b;
   };
   /// A manifold with points, and whom it is between; nullptr for one who was not met yet.
   struct Entry {
     btPersistentManifold* manifold;
-    const Party *a, *b;
+    const ContactEnd *a, *b;
   };
   /// What cannot be done on several threads.
   struct Rest {

@@ -148,7 +148,7 @@ CairnIsland ToIsland(const IslandReport& from) {
 
 void CopyBodies(std::span<const CairnBody> from, std::vector<Body>* to) {
   to->resize(from.size());
-  const auto vector = [](const float* v) { return Eigen::Vector3d(v[0], v[1], v[2]); };
+  const auto vector = [](const float* v) { return Vector3(v[0], v[1], v[2]); };
   for (size_t i = 0; i < from.size(); ++i) {
     const CairnBody& body = from[i];
     Body& result = (*to)[i];

@@ -2,7 +2,6 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,25 +11,25 @@
 #include "cairn/manifold.h"
 #include "cairn/report.h"
 #include "cairn/row.h"
+#include "cairn/vector.h"
 
 namespace cairn {
 
 /// Linear [m/s] and angular [rad/s] velocity of a body, world axes.
 struct Velocity {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
+  Vector3 linear = {}, angular = {};
 };
 
 /// A rigid body at the start of a time step. All vectors in world axes.
 struct Body {
   double inv_mass = 0;  ///< [1/kg], >= 0; 0: no impulse changes its velocity (inv_inertia 0, too).
   /// Inverse inertia about the centre of mass [1/(kg m^2)], symmetric positive semidefinite.
-  Eigen::Matrix3d inv_inertia = Eigen::Matrix3d::Zero();
+  Matrix3 inv_inertia = {};
   /// Scales inv_mass along each world axis, >= 0; 0 locks the axis.
-  Eigen::Vector3d linear_factor = Eigen::Vector3d::Ones();
+  Vector3 linear_factor = {1, 1, 1};
   Velocity velocity = {};
-  Eigen::Vector3d impulse = Eigen::Vector3d::Zero();          ///< External, over the step [N s].
-  Eigen::Vector3d angular_impulse = Eigen::Vector3d::Zero();  ///< External [N m s].
+  Vector3 impulse = {};          ///< External, over the step [N s].
+  Vector3 angular_impulse = {};  ///< External [N m s].
   double strain = 0;  ///< h^2 k / I by GeometricStiffness, of joints that pull; 4 would blow up.
   /// Keeps its value while the body lives, 0 if there is no such name. What the solver learns about
   /// an island (does a step pay here?) is remembered under the smallest id in it.

@@ -2,7 +2,6 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,8 +33,8 @@ struct ContactOptions {
 struct Touch {
   int body_a = kWorld, body_b = kWorld;
   /// Centres of mass [m]; that of kWorld is not looked at.
-  Eigen::Vector3d centre_a = Eigen::Vector3d::Zero(), centre_b = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitY();  ///< Unit vector, from b to a.
+  Vector3 centre_a = {}, centre_b = {};
+  Vector3 normal = {0, 1, 0};  ///< Unit vector, from b to a.
   double friction = 0.5;
   double restitution = 0;  ///< Speed after a bounce over that before it, >= 0.
   /// Names the two while they touch, and which of them is a; 0: no name, no warm start.
@@ -43,8 +42,8 @@ struct Touch {
 };
 
 struct TouchPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  double depth = 0;                                    ///< Overlap; below 0: a gap [m].
+  Vector3 position = {};      ///< [m]
+  double depth = 0;           ///< Overlap; below 0: a gap [m].
   std::uint32_t feature = 0;  ///< Which point it is among those of its Touch.
 };
 

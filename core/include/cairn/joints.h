@@ -2,7 +2,6 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,11 +16,11 @@ namespace cairn {
 struct JointAxis {
   double lo = -kInfinity, hi = kInfinity;  ///< Limits, lo <= hi; equal: held there.
   double speed = 0;                        ///< That the motor wants.
-  double motor_most = 0;                   ///< Its largest force, >= 0; 0: no motor.
+  double max_motor_force = 0;              ///< Its largest force, >= 0; 0: no motor.
   double rest = 0;                         ///< Where the spring wants to be: a target.
   double frequency = 0;                    ///< Of the spring [Hz], >= 0; 0: no spring.
   double damping_ratio = 1;                ///< Of the spring, >= 0. 1 is critical.
-  double spring_most = kInfinity;          ///< Its largest force, > 0.
+  double max_spring_force = kInfinity;     ///< Its largest force, > 0.
 };
 
 /// All ways: the point of a along the axes of b, the twist about their x axes, in (-pi, pi], and
@@ -41,11 +40,11 @@ JointKind ConeTwistJoint(double cone, const JointAxis& twist);
 /// What a joint holds of one body, at the start of the step, in the world.
 struct JointSide {
   int body = kWorld;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< Of mass [m]; not looked at for kWorld.
-  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< A point of the body [m].
+  Vector3 centre = {};  ///< Of mass [m]; not looked at for kWorld.
+  Vector3 anchor = {};  ///< A point of the body [m].
   /// Columns: three unit vectors at right angles, right-handed, that turn with the body. Those of
   /// both sides agree where all angles are 0.
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Matrix3 axes = Matrix3::Diagonal(1, 1, 1);
 };
 
 /// By which body a is twisted, as JointKind::twist counts it [rad], in (-pi, pi].
@@ -66,8 +65,8 @@ struct JointGear {
 /// time step; w = dC/dt):
 ///   held:    w = -erp (C - lo) / h;
 ///   limit:   the nearer one: w >= (lo - C) / h where there is room, erp (lo - C) / h where not;
-///   motor:   w = speed, as far as an impulse of +-h motor_most does it;
-///   spring:  an implicit step of it, within +-h spring_most: as soft contacts in contacts.h.
+///   motor:   w = speed, as far as an impulse of +-h max_motor_force does it;
+///   spring:  an implicit step of it, within +-h max_spring_force: as soft contacts in contacts.h.
 class Joints {
  public:
   Joints() = default;

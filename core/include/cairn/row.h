@@ -2,9 +2,8 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
-#include <Eigen/Core>
-
 #include "cairn/detail/host.h"
+#include "cairn/vector.h"
 
 namespace cairn {
 
@@ -20,8 +19,7 @@ inline constexpr int kNoRow = -1;
 struct Row {
   int body_a = kWorld, body_b = kWorld;
   /// The 12 entries of J: w gains linear_a . v_a + angular_a . omega_a + (the same for b).
-  Eigen::Vector3d linear_a = Eigen::Vector3d::Zero(), angular_a = Eigen::Vector3d::Zero();
-  Eigen::Vector3d linear_b = Eigen::Vector3d::Zero(), angular_b = Eigen::Vector3d::Zero();
+  Vector3 linear_a = {}, angular_a = {}, linear_b = {}, angular_b = {};
   double target = 0;                       ///< [m/s] or [rad/s]
   double compliance = 0;                   ///< E, the diagonal added to J M^-1 J' [1/kg], >= 0.
   double lo = -kInfinity, hi = kInfinity;  ///< [N s] or [N m s], lo <= hi.

@@ -18,16 +18,16 @@ bool AreFinite(std::span<const IslandReport> islands) {
 }
 
 /// Keeps helpers awake while it lives, unless somebody else does.
-class Shift {
+class AwakeHelpers {
  public:
-  Shift(Crew* crew, int threads) : crew_(crew->called() ? nullptr : crew) {
+  AwakeHelpers(Crew* crew, int threads) : crew_(crew->called() ? nullptr : crew) {
     if (crew_ != nullptr) crew_->Call(threads);
   }
-  ~Shift() {
+  ~AwakeHelpers() {
     if (crew_ != nullptr) crew_->Dismiss();
   }
-  Shift(const Shift&) = delete;
-  Shift& operator=(const Shift&) = delete;
+  AwakeHelpers(const AwakeHelpers&) = delete;
+  AwakeHelpers& operator=(const AwakeHelpers&) = delete;
 
  private:
   Crew* crew_;
@@ -43,7 +43,7 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
   const int threads = detail::ThreadsFor(static_cast<int>(AllRows(problem)), settings.threads);
   Crew* const crew = threads == 1 ? &alone_ : crew_;
   if (!crew->called()) crew->RecordTo(settings.tuning.spans);
-  const Shift shift(crew, threads);
+  const AwakeHelpers awake(crew, threads);
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
   cycle_.Run({problem, settings, &frame_, &memories_, meter, crew}, report);

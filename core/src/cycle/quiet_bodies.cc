@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cairn/detail/eigen.h"
+
 namespace cairn {
 namespace {
 
@@ -16,12 +18,16 @@ Velocity EndOf(const ContactProblem& problem, std::span<const Velocity> velociti
   Velocity end = velocities[body];
   if (problem.motions.empty()) return end;
   const ContactMotion& motion = problem.motions[body];
-  end.linear += Eigen::Map<const Eigen::Vector3f>(motion.free_velocity).cast<double>();
-  end.angular += Eigen::Map<const Eigen::Vector3f>(motion.free_spin).cast<double>();
+  View(end.linear) += Eigen::Map<const Eigen::Vector3f>(motion.free_velocity).cast<double>();
+  View(end.angular) += Eigen::Map<const Eigen::Vector3f>(motion.free_spin).cast<double>();
   return end;
 }
 
 }  // namespace
+
+void QuietBodies::Reserve(std::size_t bodies) {
+  if (counts_.size() < bodies) counts_.resize(bodies);
+}
 
 void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
                        double speed, Report* report) {
@@ -37,7 +43,7 @@ void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> 
     if (at < 0) continue;
     IslandReport& island = report->islands[at];
     const Velocity end = EndOf(problem, velocities, i);
-    const double linear = end.linear.squaredNorm(), angular = end.angular.squaredNorm();
+    const double linear = View(end.linear).squaredNorm(), angular = View(end.angular).squaredNorm();
     const bool is_quiet = linear < speed * speed && angular < speed * speed;
     count.solves = is_quiet ? std::min(count.solves + 1, kMost) : 0;
     // squares until all are seen

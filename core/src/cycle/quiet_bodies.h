@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,8 +15,11 @@ namespace cairn {
 /// A body at another place than in the last frame, or of another name, starts anew.
 class QuietBodies {
  public:
+  /// Makes room for so many bodies: Tell() allocates nothing.
+  void Reserve(std::size_t bodies);
   /// @param speed  Tuning::quiet_speed
-  /// @pre the report is that of the problem, solved; velocities are those that it ends with
+  /// @pre room is reserved, the report is that of the problem, solved; velocities are those that it
+  /// ends with
   void Tell(const ContactProblem& problem, std::span<const Velocity> velocities, double speed,
             Report* report);
   void Forget() { counts_.clear(); }

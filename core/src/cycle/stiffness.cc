@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cairn/detail/eigen.h"
 #include "cycle/joint_arms.h"
 #include "step/island_memories.h"
 
@@ -69,18 +70,18 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     if (found == nullptr || found->inv_mass != body.inv_mass) continue;
     Memory& memory = *found;
     // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
-    const double most = 2 * (memory.stiffness * body.inv_inertia).norm();
+    const double most = 2 * (View(memory.stiffness) * View(body.inv_inertia)).norm();
     memory.held_ratio *= kHold;
     body.strain = time_step * time_step * std::max(most, memory.held_ratio);
     if (body.strain <= kThreshold) {
-      memory.held *= kHold;
+      View(memory.held) *= kHold;
       continue;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(body.inv_inertia);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(View(body.inv_inertia));
     if (solver.info() != Eigen::Success) continue;
     const Eigen::Vector3d inv_moments = solver.eigenvalues().cwiseMax(0);
     const Eigen::Matrix3d& axes = solver.eigenvectors();
-    Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * memory.held);
+    Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * View(memory.held));
     ShareAmongEqual(inv_moments, &k);
     memory.held = k;
     memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
@@ -91,18 +92,21 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     const Eigen::Vector3d kept =
         (1 + (ratio.array() - kThreshold).max(0)).inverse().matrix();  // I / raised I
     const Eigen::Vector3d damping = kDamping * (1 - kept.array()).matrix();
-    body.inv_inertia = axes * inv_moments.cwiseProduct(kept).asDiagonal() * axes.transpose();
-    body.inv_inertia = (0.5 * (body.inv_inertia + body.inv_inertia.transpose())).eval();
-    raised_.push_back({i, axes * damping.asDiagonal() * axes.transpose(),
-                       axes * kept.asDiagonal() * axes.transpose()});
+    // an assignment and a construction need not sum in the same order
+    Eigen::Matrix3d lower;
+    lower = axes * inv_moments.cwiseProduct(kept).asDiagonal() * axes.transpose();
+    body.inv_inertia = 0.5 * (lower + lower.transpose());
+    const Eigen::Matrix3d damped = axes * damping.asDiagonal() * axes.transpose();
+    const Eigen::Matrix3d response = axes * kept.asDiagonal() * axes.transpose();
+    raised_.push_back({i, damped, response});
   }
   return raised_;
 }
 
 void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
   for (const Raised& raised : RaiseInertia(time_step, bodies)) {
-    Eigen::Vector3d& spin = bodies[raised.body].velocity.angular;
-    spin -= (raised.damping * spin).eval();
+    auto spin = View(bodies[raised.body].velocity.angular);
+    spin -= (View(raised.damping) * spin).eval();
   }
 }
 
@@ -139,18 +143,18 @@ void GeometricStiffness::NotePlaces(std::span<const Body> bodies) {
   }
 }
 
-void GeometricStiffness::Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse,
+void GeometricStiffness::Add(int body, const Vector3& arm, const Vector3& impulse,
                              double time_step) {
   // what cannot move belongs to no island
   if (body == kWorld || island_of_[body] < 0 || anchored_[island_of_[body]] == 0) return;
   if (place_[body] < 0) {
     place_[body] = static_cast<int>(pulled_.size());
     pulled_.push_back(body);
-    sums_.push_back(Eigen::Matrix3d::Zero());
+    sums_.emplace_back();
   }
-  const Eigen::Vector3d force = impulse / time_step;
-  sums_[place_[body]] += force.dot(arm) * Eigen::Matrix3d::Identity() -
-                         0.5 * (arm * force.transpose() + force * arm.transpose());
+  const Eigen::Vector3d at = arm, force = View(impulse) / time_step;
+  View(sums_[place_[body]]) += force.dot(at) * Eigen::Matrix3d::Identity() -
+                               0.5 * (at * force.transpose() + force * at.transpose());
 }
 
 void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
@@ -192,7 +196,7 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
     if (!memories_.empty()) known_[i] = Find(problem.bodies[i], static_cast<int>(i));
     if (pull_[i] == 0 && known_[i] == nullptr) continue;
     // Most() of a sum of |f| |r| is at most six times that
-    const double ratio = time_step * 6 * pull_[i] * problem.bodies[i].inv_inertia.trace();
+    const double ratio = time_step * 6 * pull_[i] * View(problem.bodies[i].inv_inertia).trace();
     // not a number: looked at
     pull_[i] = known_[i] != nullptr || !(ratio < kRemember) ? 1 : 0;
   }
@@ -233,10 +237,10 @@ void GeometricStiffness::AddRows(double time_step, const ContactProblem& problem
     bool joint = true;
     for (int k = 0; k < 3 && joint; ++k) {
       joint = joins(rows[k], rows[0]);
-      linear_a.col(k) = rows[k].linear_a;
-      angular_a.col(k) = rows[k].angular_a;
-      linear_b.col(k) = rows[k].linear_b;
-      angular_b.col(k) = rows[k].angular_b;
+      linear_a.col(k) = View(rows[k].linear_a);
+      angular_a.col(k) = View(rows[k].angular_a);
+      linear_b.col(k) = View(rows[k].linear_b);
+      angular_b.col(k) = View(rows[k].angular_b);
     }
     if (!joint || !AreAxes(rows[0].body_a != kWorld ? linear_a : linear_b)) {
       ++i;
@@ -287,11 +291,11 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     Memory& memory = *known_[i];
     memory.place = static_cast<int>(i);
     memory.seen = memory.inv_mass == bodies[i].inv_mass;
-    memory.stiffness *= stepped_[i] != 0 ? 0 : kKeep;
+    View(memory.stiffness) *= stepped_[i] != 0 ? 0 : kKeep;
   }
   for (size_t p = 0; p < pulled_.size(); ++p) {
     const Body& body = bodies[pulled_[p]];
-    const double inv_inertia = body.inv_inertia.trace();
+    const double inv_inertia = View(body.inv_inertia).trace();
     Memory* memory = known_[pulled_[p]];
     const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
     if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
@@ -306,7 +310,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     } else if (!known) {
       *memory = fresh;
     }
-    memory->stiffness += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * sums_[p];
+    View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * View(sums_[p]);
     memory->seen = true;
   }
   std::erase_if(memories_, [step2](const Memory& memory) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/eigen.h"
 #include "cycle/joint_arms.h"
 
 namespace cairn {
@@ -31,19 +32,19 @@ void Put(const Vector3d& from, float* to) {
 }
 
 void AddTo(const Velocity& change, double factor, Velocity* to) {
-  to->linear += factor * change.linear;
-  to->angular += factor * change.angular;
+  View(to->linear) += factor * View(change.linear);
+  View(to->angular) += factor * View(change.angular);
 }
 
 double Dot(const Vector3d& linear, const Vector3d& angular, const Velocity& velocity) {
-  return linear.dot(velocity.linear) + angular.dot(velocity.angular);
+  return linear.dot(View(velocity.linear)) + angular.dot(View(velocity.angular));
 }
 
 /// Along the normal of a point, of body a relative to b.
 double Apart(const ContactPoint& point, const Velocity& a, const Velocity& b) {
   const Vector3d n = ToVector(point.normal);
-  return n.dot(a.linear + a.angular.cross(ToVector(point.arm_a)) -
-               (b.linear + b.angular.cross(ToVector(point.arm_b))));
+  return n.dot(View(a.linear) + View(a.angular).cross(ToVector(point.arm_a)) -
+               (View(b.linear) + View(b.angular).cross(ToVector(point.arm_b))));
 }
 
 bool IsBoundedBelow(double lo) { return lo > -kInfinity; }
@@ -70,8 +71,8 @@ void Substeps::Begin(const ContactProblem& problem, const Impulses& start, int p
     Way& way = ways_[i];
     way = {};
     way.start = way.now = body.velocity;
-    way.pushed.linear = body.inv_mass * body.linear_factor.cwiseProduct(body.impulse);
-    way.pushed.angular = body.inv_inertia * body.angular_impulse;
+    way.pushed.linear = body.inv_mass * View(body.linear_factor).cwiseProduct(View(body.impulse));
+    way.pushed.angular = View(body.inv_inertia) * View(body.angular_impulse);
     if (!motions_.empty()) {
       const ContactMotion& motion = motions_[i];
       way.start = {ToVector(motion.start_velocity), ToVector(motion.start_spin)};
@@ -79,8 +80,8 @@ void Substeps::Begin(const ContactProblem& problem, const Impulses& start, int p
       AddTo(way.start, -1, &way.pushed);
       AddTo(way.start, 1, &way.now);
     }
-    body.impulse *= share();
-    body.angular_impulse *= share();
+    View(body.impulse) *= share();
+    View(body.angular_impulse) *= share();
   }
   for (ContactTwist& twist : twists_) {
     twist.most_spinning *= static_cast<float>(share());
@@ -230,7 +231,7 @@ Vector3d Substeps::MeanSpin(const Way& way) const {
   if (motions_.empty()) return mean;
   // relative to what motions say, like velocities
   const double pushed = (part_ + 1) * share() / 2;
-  return mean - way.start.angular - pushed * way.pushed.angular;
+  return mean - View(way.start.angular) - pushed * View(way.pushed.angular);
 }
 
 void Substeps::MoveBodies() {
@@ -389,7 +390,7 @@ void Substeps::AimHeld(const Held& held) {
     if (body == kWorld) return Vector3d::Zero();
     const Way& way = ways_[body];
     *now = way.turned * arm;
-    return way.way.linear + (*now - arm) / h;
+    return View(way.way.linear) + (*now - arm) / h;
   };
   Vector3d arm_a, arm_b;
   const Vector3d moved_a = move(joint.body_a, held.arm_a, &arm_a);

@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The law of a normal row.
-struct NormalLaw {
+/// What a normal row asks for.
+struct Normal {
   double bias;
   double compliance;
   bool is_speed;  ///< bias is to be kept, and takes back no depth
@@ -36,23 +36,23 @@ double BounceSpeed(double restitution, const Approach& approach, double gap, dou
   return std::sqrt(2 * std::max(0.0, after)) - pressed / 2;
 }
 
-NormalLaw LawOf(const ContactOptions& options, double restitution, const Approach& approach,
+Normal NormalOf(const ContactOptions& options, double restitution, const Approach& approach,
                 double depth, double h) {
-  NormalLaw law{.bias = depth / h, .compliance = 0, .is_speed = false};
+  Normal row{.bias = depth / h, .compliance = 0, .is_speed = false};
   if (depth >= 0) {
     const double frequency = std::min(options.frequency, 0.25 / h);
     const SoftRow soft = frequency > 0
                              ? Soften(frequency, options.damping_ratio, approach.mobility, h)
                              : SoftRow{.share = options.erp, .compliance = 0};
-    law.bias = std::min(options.max_push, soft.share * std::max(0.0, depth - options.slop) / h);
-    law.compliance = soft.compliance;
-    law.is_speed = frequency > 0;
+    row.bias = std::min(options.max_push, soft.share * std::max(0.0, depth - options.slop) / h);
+    row.compliance = soft.compliance;
+    row.is_speed = frequency > 0;
   }
   const bool bounces = restitution > 0 && -approach.start >= options.min_bounce &&
                        -approach.start > 0 && h * approach.free <= depth;
-  if (!bounces) return law;
+  if (!bounces) return row;
   const double bounce = BounceSpeed(restitution, approach, -depth, h);
-  return {.bias = std::max(law.bias, bounce), .compliance = 0, .is_speed = true};
+  return {.bias = std::max(row.bias, bounce), .compliance = 0, .is_speed = true};
 }
 
 }  // namespace
@@ -95,29 +95,30 @@ void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
 void Contacts::AddPoint(const Touch& touch, const TouchPoint& from, Manifold* manifold) {
   const auto arm = [&from](int body, const Vector3d& centre) -> Vector3d {
     if (body == kWorld) return Vector3d::Zero();
-    return from.position - centre;
+    return View(from.position) - centre;
   };
   const Vector3d arm_a = arm(touch.body_a, touch.centre_a);
   const Vector3d arm_b = arm(touch.body_b, touch.centre_b);
-  const HalfRow a{touch.normal, arm_a.cross(touch.normal)};
-  const HalfRow b{-touch.normal, -arm_b.cross(touch.normal)};
+  const auto normal = View(touch.normal);
+  const HalfRow a{normal, arm_a.cross(normal)};
+  const HalfRow b{-normal, -arm_b.cross(normal)};
   const Approach approach{
       .start = Along(a, StartVelocity(step_, touch.body_a)) +
                Along(b, StartVelocity(step_, touch.body_b)),
       .free =
           Along(a, FreeVelocity(step_, touch.body_a)) + Along(b, FreeVelocity(step_, touch.body_b)),
       .mobility = Mobility(step_, touch.body_a, a) + Mobility(step_, touch.body_b, b)};
-  const NormalLaw law = LawOf(options_, touch.restitution, approach, from.depth, step_.time_step);
+  const Normal row = NormalOf(options_, touch.restitution, approach, from.depth, step_.time_step);
 
-  if (law.is_speed) manifold->speeds |= static_cast<std::uint8_t>(1 << manifold->points);
+  if (row.is_speed) manifold->speeds |= static_cast<std::uint8_t>(1 << manifold->points);
   ++manifold->points;
   ContactPoint& point = points_.emplace_back();
   PutFloats(arm_a, point.arm_a);
   PutFloats(arm_b, point.arm_b);
   PutFloats(touch.normal, point.normal);
-  point.bias = static_cast<float>(law.bias);
+  point.bias = static_cast<float>(row.bias);
   point.friction = static_cast<float>(touch.friction);
-  point.compliance = static_cast<float>(law.compliance);
+  point.compliance = static_cast<float>(row.compliance);
 }
 
 ContactImpulse Contacts::StartAt(const Key& key) const {

@@ -22,9 +22,11 @@ struct Twist {
   Vector3d axis;
 };
 
+Vector3d Between(const Vector3& to, const Vector3& from) { return View(to) - View(from); }
+
 Twist FindTwist(const JointSide& a, const JointSide& b) {
-  const Eigen::Quaterniond turn(Eigen::Matrix3d(b.axes.transpose() * a.axes));
-  const Vector3d x_a = a.axes.col(0), x_b = b.axes.col(0);
+  const Eigen::Quaterniond turn(Eigen::Matrix3d(View(b.axes).transpose() * View(a.axes)));
+  const Vector3d x_a = View(a.axes).col(0), x_b = View(b.axes).col(0);
   // (x_a + x_b) / (1 + x_a.x_b) has no bound where these are opposite
   const double both = 1 + x_a.dot(x_b);
   const Vector3d axis = both > 0.1 ? Vector3d((x_a + x_b) / both) : x_b;
@@ -76,12 +78,12 @@ void Joints::Begin(const StepInput& step) {
 
 int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, std::uint64_t id) {
   Open(a, b);
-  const Vector3d apart = a.anchor - b.anchor;
+  const Vector3d apart = Between(a.anchor, b.anchor);
   for (int i = 0; i < 3; ++i) {
     // both arms end in the anchor of a: the axis turns with b
-    const Vector3d axis = b.axes.col(i);
-    const Way way{.a = {axis, (a.anchor - a.centre).cross(axis)},
-                  .b = {-axis, -(a.anchor - b.centre).cross(axis)},
+    const Vector3d axis = View(b.axes).col(i);
+    const Way way{.a = {axis, Between(a.anchor, a.centre).cross(axis)},
+                  .b = {-axis, -Between(a.anchor, b.centre).cross(axis)},
                   .turns = false};
     AddAxis(kind.linear[i], way, axis.dot(apart));
   }
@@ -97,12 +99,12 @@ int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, s
 int Joints::AddDistance(const JointAxis& length, const JointSide& a, const JointSide& b,
                         std::uint64_t id) {
   Open(a, b);
-  const Vector3d apart = a.anchor - b.anchor;
+  const Vector3d apart = Between(a.anchor, b.anchor);
   const double distance = apart.norm();
   const Vector3d axis = distance > 1e-9 ? Vector3d(apart / distance) : Vector3d::UnitX();
   AddAxis(length,
-          {.a = {axis, (a.anchor - a.centre).cross(axis)},
-           .b = {-axis, -(b.anchor - b.centre).cross(axis)},
+          {.a = {axis, Between(a.anchor, a.centre).cross(axis)},
+           .b = {-axis, -Between(b.anchor, b.centre).cross(axis)},
            .turns = false},
           distance);
   return Close(id);
@@ -115,8 +117,8 @@ int Joints::AddGear(const JointGear& a, const JointGear& b, std::uint64_t id) {
   const double meshed = a.teeth * a.angle + b.teeth * b.angle;
   // exact with every library; half a tooth off it falls into the next gap
   const double error = std::remainder(meshed, 2 * kPi) / a.teeth;
-  JointRow& row = AddRow({.a = {Vector3d::Zero(), a.side.axes.col(0)},
-                          .b = {Vector3d::Zero(), ratio * b.side.axes.col(0)},
+  JointRow& row = AddRow({.a = {Vector3d::Zero(), View(a.side.axes).col(0)},
+                          .b = {Vector3d::Zero(), ratio * View(b.side.axes).col(0)},
                           .turns = true});
   TakeBack(erp_ * error, &row);
   return Close(id);
@@ -173,10 +175,10 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     }
     lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
   }
-  if (axis.motor_most > 0) {
+  if (axis.max_motor_force > 0) {
     JointRow& row = AddRow(way);
     row.target = static_cast<float>(axis.speed);
-    bound(-h * axis.motor_most, h * axis.motor_most, &row);
+    bound(-h * axis.max_motor_force, h * axis.max_motor_force, &row);
   }
   if (axis.frequency > 0) {
     const Joint& joint = joints_.back();
@@ -187,15 +189,16 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     row.target = static_cast<float>(-soft.share * (position - axis.rest) / h);
     row.compliance = static_cast<float>(soft.compliance);
     joints_.back().soft = true;
-    if (axis.spring_most < kInfinity) bound(-h * axis.spring_most, h * axis.spring_most, &row);
+    if (axis.max_spring_force < kInfinity)
+      bound(-h * axis.max_spring_force, h * axis.max_spring_force, &row);
   }
 }
 
 void Joints::AddCone(double cone, const JointSide& a, const JointSide& b) {
-  const Vector3d x_a = a.axes.col(0), x_b = b.axes.col(0), across = x_b.cross(x_a);
+  const Vector3d x_a = View(a.axes).col(0), x_b = View(b.axes).col(0), across = x_b.cross(x_a);
   const double sine = across.norm(), cosine = x_b.dot(x_a);
   const double angle = ArcTan2(sine, cosine);
-  const Vector3d axis = sine > 1e-9 ? Vector3d(across / sine) : Vector3d(b.axes.col(1));
+  const Vector3d axis = sine > 1e-9 ? Vector3d(across / sine) : Vector3d(View(b.axes).col(1));
   const auto about = [](const Vector3d& u) {
     return Way{.a = {Vector3d::Zero(), u}, .b = {Vector3d::Zero(), -u}, .turns = true};
   };
@@ -204,7 +207,7 @@ void Joints::AddCone(double cone, const JointSide& a, const JointSide& b) {
     return;
   }
   for (int i = 1; i < 3; ++i) {
-    const Vector3d u = b.axes.col(i);
+    const Vector3d u = View(b.axes).col(i);
     AddAxis(kHeld, about(u), angle * axis.dot(u));
   }
 }

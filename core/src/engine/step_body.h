@@ -2,9 +2,8 @@
 // How bodies of a step move, and how hard they are to move, along a row.
 #pragma once
 
-#include <Eigen/Core>
-
 #include "cairn/contacts.h"
+#include "cairn/detail/eigen.h"
 
 namespace cairn {
 
@@ -21,21 +20,21 @@ inline Velocity StartVelocity(const StepInput& step, int body) {
 inline Velocity FreeVelocity(const StepInput& step, int body) {
   if (body == kWorld) return {};
   const Body& b = step.bodies[body];
-  const Eigen::Vector3d pushed = b.inv_mass * b.linear_factor.cwiseProduct(b.impulse);
-  return {.linear = b.velocity.linear + pushed,
-          .angular = b.velocity.angular + b.inv_inertia * b.angular_impulse};
+  const Eigen::Vector3d pushed = b.inv_mass * View(b.linear_factor).cwiseProduct(View(b.impulse));
+  return {.linear = View(b.velocity.linear) + pushed,
+          .angular = View(b.velocity.angular) + View(b.inv_inertia) * View(b.angular_impulse)};
 }
 
 inline double Along(const HalfRow& row, const Velocity& velocity) {
-  return row.linear.dot(velocity.linear) + row.angular.dot(velocity.angular);
+  return row.linear.dot(View(velocity.linear)) + row.angular.dot(View(velocity.angular));
 }
 
 /// Its part of J M^-1 J'.
 inline double Mobility(const StepInput& step, int body, const HalfRow& row) {
   if (body == kWorld) return 0;
   const Body& b = step.bodies[body];
-  return b.inv_mass * b.linear_factor.cwiseProduct(row.linear).dot(row.linear) +
-         row.angular.dot(b.inv_inertia * row.angular);
+  return b.inv_mass * View(b.linear_factor).cwiseProduct(row.linear).dot(row.linear) +
+         row.angular.dot(View(b.inv_inertia) * row.angular);
 }
 
 /// An implicit step of a spring and damper between bodies of J M^-1 J' = @p mobility.

@@ -9,13 +9,13 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "cairn/detail/eigen.h"
 #include "problem/islands.h"
 #include "problem/validate.h"
 
 namespace cairn {
 namespace {
 
-using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 /// Lengths and angles of unit vectors may be off by so much.
@@ -43,7 +43,7 @@ std::string TextOf(const Vector& v) {
 Vector3f ToVector(const float* from) { return {from[0], from[1], from[2]}; }
 
 bool Finite(const Vector3f& v) { return (0 * v).isZero(0); }
-bool Finite(const Vector3d& v) { return (0 * v).isZero(0); }
+bool Finite(const auto& of) { return (0 * View(of)).isZero(0); }
 
 /// Looks at a problem whose spans fit one another.
 class Inspector {
@@ -123,14 +123,13 @@ void Inspector::InspectBody(const Body& body) {
   ExpectFiniteVector("velocity.angular", body.velocity.angular);
   ExpectFiniteVector("impulse", body.impulse);
   ExpectFiniteVector("angular_impulse", body.angular_impulse);
-  if (!Finite(body.linear_factor) || body.linear_factor.minCoeff() < 0) {
+  if (!Finite(body.linear_factor) || View(body.linear_factor).minCoeff() < 0) {
     Add("linear_factor", TextOf(body.linear_factor), "three numbers of 0 or more");
   }
   Eigen::Matrix3d factor;
-  const bool finite = (0 * body.inv_inertia).isZero(0);
-  if (!finite || !FactorInertia(body.inv_inertia, &factor)) {
-    std::string rows = TextOf(body.inv_inertia.row(0));
-    for (int i = 1; i < 3; ++i) rows.append(", ").append(TextOf(body.inv_inertia.row(i)));
+  if (!Finite(body.inv_inertia) || !FactorInertia(body.inv_inertia, &factor)) {
+    std::string rows = TextOf(View(body.inv_inertia).row(0));
+    for (int i = 1; i < 3; ++i) rows.append(", ").append(TextOf(View(body.inv_inertia).row(i)));
     Add("inv_inertia", rows, "symmetric positive semidefinite");
   }
 }
@@ -153,8 +152,8 @@ void Inspector::InspectNames() {
 void Inspector::InspectRow(const Row& row) {
   const Status status = ValidateRow(problem_, index_, impulses_.rows[index_]);
   if (status != Status::kOk) return Add("", "refused", Describe(status));
-  const auto zero = [](int body, const Vector3d& linear, const Vector3d& angular) {
-    return body == kWorld || (linear.isZero(0) && angular.isZero(0));
+  const auto zero = [](int body, const Vector3& linear, const Vector3& angular) {
+    return body == kWorld || (linear == Vector3() && angular == Vector3());
   };
   if (zero(row.body_a, row.linear_a, row.angular_a) &&
       zero(row.body_b, row.linear_b, row.angular_b)) {

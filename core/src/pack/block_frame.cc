@@ -17,7 +17,7 @@ namespace {
 constexpr int kBodiesOfUnit = 256;
 /// Velocities that one thread looks at, or brings to rest, at a time.
 constexpr int kSlotsOfUnit = 1024;
-/// Rows whose laws one thread reads at a time.
+/// Rows whose kinds one thread reads at a time.
 constexpr int kRowsOfUnit = 1024;
 
 constexpr int kNumbersOfBody = sizeof(simd::BodyLane) / sizeof(float);
@@ -99,7 +99,7 @@ bool FitsFloats(const Body& given, const WhitenedBody& body) {
     return (of_mass == 0) | ((of_mass >= least) & (of_mass <= most));
   };
   // one by one, none waits for another; comparisons with what is not a number are false
-  bool all = fits(given.inv_inertia.trace(), kLeast * kLeast, kMost * kMost);
+  bool all = fits(View(given.inv_inertia).trace(), kLeast * kLeast, kMost * kMost);
   for (int k = 0; k < 3; ++k) {
     all &= fits(body.linear[k], kLeast, kMost) & (std::abs(body.free.linear[k]) <= kMostVelocity) &
            (std::abs(body.free.angular[k]) <= kMostVelocity) &
@@ -137,7 +137,7 @@ bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem, Crew* cre
   const auto same = [crew](const auto& now, const auto& planned) {
     return now.size() == planned.size() && HoldsForAll(now.size(), crew, [&](size_t i) {
              return now[i].body_a == planned[i].body_a && now[i].body_b == planned[i].body_b &&
-                    HasLawOf(now[i], planned[i]);
+                    IsOfKindOf(now[i], planned[i]);
            });
   };
   return same(problem.joints, planned_joints_) && same(problem.manifolds, planned_manifolds_);
@@ -176,15 +176,15 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
   planned_joints_.assign(problem.joints.begin(), problem.joints.end());
   planned_manifolds_.assign(problem.manifolds.begin(), problem.manifolds.end());
   ++plan_number_;
-  laws_.resize(planned_rows_);
+  row_kinds_.resize(planned_rows_);
   std::atomic<bool> valid{true};
   InParts(static_cast<int>(planned_rows_), kRowsOfUnit, crew, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) {
-      if (ReadLaw(problem, i, impulses[i], omega, &laws_[i])) continue;
+      if (ReadKind(problem, i, impulses[i], omega, &row_kinds_[i])) continue;
       valid.store(false, std::memory_order_relaxed);
     }
   });
-  return valid && plan_.Make(problem, laws_, movable_, crew);
+  return valid && plan_.Make(problem, row_kinds_, movable_, crew);
 }
 
 PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {

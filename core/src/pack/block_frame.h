@@ -64,7 +64,7 @@ class BlockFrame {
   const simd::ContactKernels* contact_kernels_ = &simd::ContactKernelsFor(target_);
   Crew* crew_ = nullptr;
   Plan plan_;
-  std::vector<RowLaw> laws_;
+  std::vector<RowKind> row_kinds_;
   std::vector<Joint> planned_joints_;
   std::vector<Manifold> planned_manifolds_;
   int plan_number_ = 0;

@@ -10,7 +10,7 @@
 #include "cairn/detail/prefetch.h"
 #include "pack/joint_pack.h"
 #include "pack/manifold_pack.h"
-#include "plan/row_law.h"
+#include "plan/row_kind.h"
 
 namespace cairn {
 namespace {
@@ -94,9 +94,9 @@ std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 /// The law that most rows have, compared by its bits: checking every field of every row for itself
 /// costs more than packing them.
-class UsualLaw {
+class UsualKind {
  public:
-  UsualLaw(PairForm form, const RowShape& shape, double omega)
+  UsualKind(PairForm form, const RowShape& shape, double omega)
       : exists_(!shape.soft && !shape.relaxed && omega == 1 && shape.bound != RowBound::kOwn &&
                 shape.bound != RowBound::kCutFriction),
         opposite_(form == PairForm::kContact),
@@ -118,7 +118,7 @@ class UsualLaw {
 
  private:
   bool HasLinearPart(const Row& row) const {
-    const Eigen::Vector3d &a = row.linear_a, &b = row.linear_b;
+    const Vector3 &a = row.linear_a, &b = row.linear_b;
     const std::uint64_t any = Bits(a[0]) | Bits(a[1]) | Bits(a[2]);
     if (angular_) return ((any | Bits(b[0]) | Bits(b[1]) | Bits(b[2])) << 1) == 0;
     const std::uint64_t sum =
@@ -154,7 +154,7 @@ class OneBlock {
       if (!ReadRows(i, shape)) return PackResult::kChanged;
       if (!packer_.pack_row(block_.form, source_, a_, b_, line_)) return PackResult::kOutOfRange;
       line_ += simd::JacobianLines(block_.form) + 2;
-      PutLaw(shape);
+      PutKind(shape);
       const PackResult result = PutImpulses(i, shape, impulses);
       if (result != PackResult::kDone) return result;
       line_ += simd::BoundLines(shape.bound);
@@ -188,7 +188,7 @@ class OneBlock {
 
   /// Row @p i of every lane; false if one is not as planned.
   bool ReadRows(int i, const RowShape& shape) {
-    const UsualLaw usual(block_.form, shape, packer_.omega);
+    const UsualKind usual(block_.form, shape, packer_.omega);
     const bool last = i + 1 == block_.row_count;
     bool as_planned = true;
     for (int lane = 0; lane < block_.lanes; ++lane) {
@@ -214,17 +214,17 @@ class OneBlock {
 
   /// J v of one side of a row, if that is a body which rows cannot move, as a platform: to the
   /// kernel it is the world. @p side: its linear part, its angular part behind it
-  double VelocityOfUnmoved(int body, const Pair& pair, const Eigen::Vector3d& side) const {
+  double VelocityOfUnmoved(int body, const Pair& pair, const Vector3& side) const {
     const bool is_body = body >= 0 && body < static_cast<int>(packer_.bodies.size());
     if (!is_body || body == pair.a) return 0;
     const Velocity& free = packer_.bodies[body].free;
-    return side.dot(free.linear) +
-           Eigen::Map<const Eigen::Vector3d>(side.data() + 3).dot(free.angular);
+    return View(side).dot(View(free.linear)) +
+           Eigen::Map<const Eigen::Vector3d>(side.data() + 3).dot(View(free.angular));
   }
 
   bool Fits(const Row& row, const Pair& pair, int parent, const RowShape& shape) const {
     return row.parent == parent && LikeParent(row) && HasShape(row, packer_.omega, shape) &&
-           Joins(row, pair, packer_.movable) && HasValidLaw(row) &&
+           Joins(row, pair, packer_.movable) && HasValidKind(row) &&
            (block_.form != PairForm::kContact || ActsOpposite(row));
   }
 
@@ -247,7 +247,7 @@ class OneBlock {
     unusual_ = true;
   }
 
-  void PutLaw(const RowShape& shape) {
+  void PutKind(const RowShape& shape) {
     if (!unusual_) return;
     const auto put = [this](const simd::DoubleLine& from) {
       for (int lane = 0; lane < kLanes; ++lane) {

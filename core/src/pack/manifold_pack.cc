@@ -69,10 +69,10 @@ simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
     std::memcpy(result.free, motion, sizeof(*motion));
     return result;
   }
-  put(whitened.free.linear, result.free);
-  put(whitened.free.angular, result.free + 3);
-  put(body.velocity.linear, result.start);
-  put(body.velocity.angular, result.start + 3);
+  put(View(whitened.free.linear), result.free);
+  put(View(whitened.free.angular), result.free + 3);
+  put(View(body.velocity.linear), result.start);
+  put(View(body.velocity.angular), result.start + 3);
   return result;
 }
 

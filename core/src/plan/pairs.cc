@@ -25,7 +25,7 @@ bool Joins(const Pair& pair, int a, int b) {
 }
 
 /// It may bound the friction of another row.
-bool MayBound(const RowLaw& parent, const RowLaw& row) {
+bool MayBound(const RowKind& parent, const RowKind& row) {
   const bool same =
       (parent.a == row.a && parent.b == row.b) || (parent.a == row.b && parent.b == row.a);
   return parent.parent == kNoRow && same;
@@ -72,7 +72,7 @@ class RecentShapes {
   template <class Make>
   int Of(const Source& source, const Make& make) {
     for (int i = 0; i < std::min(made_, kMost); ++i) {
-      if (HasLawOf(source, *sources_[i])) return shapes_[i];
+      if (IsOfKindOf(source, *sources_[i])) return shapes_[i];
     }
     const int place = made_++ % kMost;
     sources_[place] = &source;
@@ -96,7 +96,7 @@ simd::PairForm FormOf(const MovableBodies& movable, const Pair& pair) {
 
 Mobility MobilityOf(const Body& body) {
   if (!CanMove(body)) return kUnmoved;
-  const bool even = body.inv_mass > 0 && body.linear_factor == Eigen::Vector3d::Ones();
+  const bool even = body.inv_mass > 0 && body.linear_factor == Vector3(1, 1, 1);
   return even ? kMovedEvenly : kMoved;
 }
 
@@ -114,14 +114,14 @@ int PairFinder::Look(int a, int b, bool contact) {
   }
 }
 
-int PairFinder::PairOf(const RowLaw& law, size_t index) {
-  if (law.parent != kNoRow) return pair_of_row_[law.parent];
+int PairFinder::PairOf(const RowKind& kind, size_t index) {
+  if (kind.parent != kNoRow) return pair_of_row_[kind.parent];
   const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
-  int a = moves(law.a) ? law.a : kWorld, b = moves(law.b) ? law.b : kWorld;
+  int a = moves(kind.a) ? kind.a : kWorld, b = moves(kind.b) ? kind.b : kWorld;
   if (a == kWorld) std::swap(a, b);
 
   // the neighbour's: limits of a joint only push, too, and follow its other rows
-  const bool contact = law.shape.bound == simd::RowBound::kPush;
+  const bool contact = kind.shape.bound == simd::RowBound::kPush;
   if (index > 0) {
     const Pair& last = list_->pairs[pair_of_row_[index - 1]];
     if (Joins(last, a, b) && (!last.contact || contact)) return pair_of_row_[index - 1];
@@ -129,31 +129,31 @@ int PairFinder::PairOf(const RowLaw& law, size_t index) {
   return Look(a, b, contact);
 }
 
-bool PairFinder::Find(std::span<const RowLaw> laws, const ContactProblem& problem,
+bool PairFinder::Find(std::span<const RowKind> kinds, const ContactProblem& problem,
                       const MovableBodies& movable, ShapeTable* shapes, PairList* list) {
-  laws_ = laws;
+  row_kinds_ = kinds;
   movable_ = &movable;
   list_ = list;
   list_->pairs.clear();
-  pair_of_row_.resize(laws.size());
+  pair_of_row_.resize(kinds.size());
   size_t capacity = 64;
-  while (capacity < 2 * laws.size()) capacity *= 2;
+  while (capacity < 2 * kinds.size()) capacity *= 2;
   table_.assign(capacity, 0);
 
-  for (size_t i = 0; i < laws.size(); ++i) {
-    const RowLaw& law = laws[i];
-    if (law.parent != kNoRow) {
-      const bool earlier = law.parent >= 0 && law.parent < static_cast<int>(i);
-      if (!earlier || !MayBound(laws[law.parent], law)) return false;
+  for (size_t i = 0; i < kinds.size(); ++i) {
+    const RowKind& kind = kinds[i];
+    if (kind.parent != kNoRow) {
+      const bool earlier = kind.parent >= 0 && kind.parent < static_cast<int>(i);
+      if (!earlier || !MayBound(kinds[kind.parent], kind)) return false;
     }
-    const int index = pair_of_row_[i] = PairOf(law, i);
+    const int index = pair_of_row_[i] = PairOf(kind, i);
     Pair& pair = list_->pairs[index];
     if (pair.rows++ == 0) {
-      pair.row_a = law.a;
-      pair.row_b = law.b;
+      pair.row_a = kind.a;
+      pair.row_b = kind.b;
       pair.form = FormOf(movable, pair);
     }
-    if (pair.form == simd::PairForm::kContact && !law.opposite) {
+    if (pair.form == simd::PairForm::kContact && !kind.opposite) {
       pair.form = simd::PairForm::kJoint;
     }
   }
@@ -266,8 +266,8 @@ void PairFinder::FindShapes(ShapeTable* shapes) {
   for (Pair& pair : list_->pairs) {
     scratch_.clear();
     for (int row : list_->rows_of(pair)) {
-      scratch_.push_back(laws_[row].shape);
-      const int parent = laws_[row].parent;
+      scratch_.push_back(row_kinds_[row].shape);
+      const int parent = row_kinds_[row].parent;
       if (parent != kNoRow) scratch_.back().parent = static_cast<std::int16_t>(place_[parent]);
     }
     pair.shape = shapes->Intern(scratch_, RowSource::kRows);

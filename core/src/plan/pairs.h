@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cairn/contact_problem.h"
-#include "plan/row_law.h"
+#include "plan/row_kind.h"
 #include "simd/pairs/pair_block.h"
 
 namespace cairn {
@@ -26,11 +26,11 @@ struct Pair {
 };
 
 /// Whether rows of the one are of the same kind and number as those of the other.
-inline bool HasLawOf(const Joint& a, const Joint& b) {
+inline bool IsOfKindOf(const Joint& a, const Joint& b) {
   return a.rows == b.rows && a.bounded == b.bounded && a.angular == b.angular && a.soft == b.soft &&
          a.opposite == b.opposite && a.host.max_sweeps == b.host.max_sweeps;
 }
-inline bool HasLawOf(const Manifold& a, const Manifold& b) {
+inline bool IsOfKindOf(const Manifold& a, const Manifold& b) {
   return a.points == b.points && a.tangents == b.tangents && a.soft == b.soft &&
          a.twists == b.twists && a.host.max_sweeps == b.host.max_sweeps;
 }
@@ -79,7 +79,7 @@ class PairFinder {
   /// Fills the list, and @p shapes as far as new. False if a row has no parent that it may have: an
   /// earlier one of the same bodies, which has none itself.
   /// @pre joints and manifolds are valid
-  [[nodiscard]] bool Find(std::span<const RowLaw> laws, const ContactProblem& problem,
+  [[nodiscard]] bool Find(std::span<const RowKind> kinds, const ContactProblem& problem,
                           const MovableBodies& movable, ShapeTable* shapes, PairList* list);
 
  private:
@@ -90,12 +90,12 @@ class PairFinder {
   /// forces
   void Add(const Pair& pair, bool opposite);
   int ShapeOf(const Manifold& manifold, ShapeTable* shapes);
-  int PairOf(const RowLaw& law, size_t index);
+  int PairOf(const RowKind& kind, size_t index);
   int Look(int a, int b, bool contact);
   void HandOutRows();
   void FindShapes(ShapeTable* shapes);
 
-  std::span<const RowLaw> laws_;
+  std::span<const RowKind> row_kinds_;
   const MovableBodies* movable_ = nullptr;
   PairList* list_ = nullptr;
   std::vector<int> pair_of_row_;

@@ -38,10 +38,10 @@ bool Shares(const simd::PairBlock& block, int a, int b) {
 
 }  // namespace
 
-bool Plan::Make(const ContactProblem& problem, std::span<const RowLaw> laws,
+bool Plan::Make(const ContactProblem& problem, std::span<const RowKind> kinds,
                 const MovableBodies& movable, Crew* crew) {
   const std::span<const Body> bodies = problem.bodies;
-  if (!pair_finder_.Find(laws, problem, movable, &shapes_, &list_)) return false;
+  if (!pair_finder_.Find(kinds, problem, movable, &shapes_, &list_)) return false;
   // neither needs the other
   ForUnits(2, crew, [&](int half) {
     if (half == 0) return colouring_.Update(bodies, list_.pairs);

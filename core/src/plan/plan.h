@@ -8,7 +8,7 @@
 #include "plan/colouring.h"
 #include "plan/pair_order.h"
 #include "plan/pairs.h"
-#include "plan/row_law.h"
+#include "plan/row_kind.h"
 #include "problem/islands.h"
 #include "runtime/crew.h"
 #include "simd/pairs/pair_block.h"
@@ -57,10 +57,10 @@ struct Phase {
 /// get other rows does it change.
 class Plan {
  public:
-  /// @p laws: of all rows, each valid by ReadLaw(). False if a parent is not valid, by Validate();
-  /// the plan is then of no use.
+  /// @p kinds: of all rows, each valid by ReadKind(). False if a parent is not valid, by
+  /// Validate(); the plan is then of no use.
   /// @pre bodies, joints and manifolds of the problem are valid
-  [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const RowLaw> laws,
+  [[nodiscard]] bool Make(const ContactProblem& problem, std::span<const RowKind> kinds,
                           const MovableBodies& movable, Crew* crew);
 
   std::span<const simd::PairBlock> blocks() const { return blocks_; }

@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 /// Points that slide slower have no direction [m^2/s^2].
 constexpr double kLeastSlide = 1.1920929e-7;
 
+double Dot(const Vector3& a, const Vector3& b) { return View(a).dot(View(b)); }
+
 Vector3d ToVector(const float* from) { return {from[0], from[1], from[2]}; }
 
 /// Of any length whose square may not fit. Zero stays zero.
@@ -73,7 +75,7 @@ Motion SeenMotion(const ContactProblem& problem, int body) {
 }
 
 Vector3d VelocityAt(const Velocity& velocity, const Vector3d& arm) {
-  return velocity.linear + velocity.angular.cross(arm);
+  return View(velocity.linear) + View(velocity.angular).cross(arm);
 }
 
 }  // namespace
@@ -108,11 +110,11 @@ void ContactExpansion::Add(const Joint& joint, const ContactProblem& problem,
     row.body_b = joint.body_b;
     row.linear_a = ToVector(from.linear_a);
     row.angular_a = ToVector(from.angular_a);
-    row.linear_b = joint.opposite ? Vector3d(-row.linear_a) : ToVector(from.linear_b);
+    row.linear_b = joint.opposite ? Vector3d(-View(row.linear_a)) : ToVector(from.linear_b);
     row.angular_b = ToVector(from.angular_b);
     const auto along = [&row](const Motion& of_a, const Motion& of_b) {
-      return row.linear_a.dot(of_a.free.linear) + row.angular_a.dot(of_a.free.angular) +
-             row.linear_b.dot(of_b.free.linear) + row.angular_b.dot(of_b.free.angular);
+      return Dot(row.linear_a, of_a.free.linear) + Dot(row.angular_a, of_a.free.angular) +
+             Dot(row.linear_b, of_b.free.linear) + Dot(row.angular_b, of_b.free.angular);
     };
     // targets are for velocities as the bodies have them
     row.target = from.target - joint.damping * along(a, b) + along(own_a, own_b);
@@ -153,11 +155,11 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
   const Velocity b_slides{b.free.linear,
                           law.host.spin_before_torques ? b.start.angular : b.free.angular};
   const Vector3d unseen = own - relative(a_slides, b_slides);
-  const Vector3d own_spin = MotionOf(bodies_, manifold.body_a).free.angular -
-                            MotionOf(bodies_, manifold.body_b).free.angular;
+  const Vector3d own_spin = View(MotionOf(bodies_, manifold.body_a).free.angular) -
+                            View(MotionOf(bodies_, manifold.body_b).free.angular);
   return {{n, t1, t2},
           {point.bias + bounce + n.dot(own - free), t1.dot(unseen), t2.dot(unseen)},
-          own_spin - (a_slides.angular - b_slides.angular)};
+          own_spin - (View(a_slides.angular) - View(b_slides.angular))};
 }
 
 void ContactExpansion::Add(const Manifold& manifold, const ContactProblem& problem,

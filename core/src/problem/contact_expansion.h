@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/eigen.h"
 
 namespace cairn {
 

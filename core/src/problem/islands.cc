@@ -5,10 +5,13 @@
 #include <numeric>
 #include <utility>
 
+#include "cairn/detail/eigen.h"
+
 namespace cairn {
 
 bool CanMove(const Body& body) {
-  return (body.inv_mass > 0 && !body.linear_factor.isZero(0)) || !body.inv_inertia.isZero(0);
+  return (body.inv_mass > 0 && !View(body.linear_factor).isZero(0)) ||
+         !View(body.inv_inertia).isZero(0);
 }
 
 void IslandFinder::Start(int bodies) {

@@ -4,20 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/eigen.h"
+
 namespace cairn {
 namespace {
 
-bool Finite(const Eigen::Vector3d& v) { return v.allFinite(); }
+bool Finite(const auto& of) { return View(of).allFinite(); }
 
 Status CheckBody(const Body& body) {
-  const bool finite = std::isfinite(body.inv_mass) && body.inv_inertia.allFinite() &&
+  const bool finite = std::isfinite(body.inv_mass) && Finite(body.inv_inertia) &&
                       Finite(body.linear_factor) && Finite(body.velocity.linear) &&
                       Finite(body.velocity.angular) && Finite(body.impulse) &&
                       Finite(body.angular_impulse);
   if (!finite) return Status::kNotFinite;
 
   Eigen::Matrix3d factor;
-  const bool mass = body.inv_mass >= 0 && body.linear_factor.minCoeff() >= 0;
+  const bool mass = body.inv_mass >= 0 && View(body.linear_factor).minCoeff() >= 0;
   if (!mass || !FactorInertia(body.inv_inertia, &factor)) return Status::kBadMass;
   return Status::kOk;
 }

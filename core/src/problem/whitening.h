@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/eigen.h"
 
 namespace cairn {
 

@@ -8,7 +8,7 @@
 namespace cairn {
 
 template <class Io>
-void Visit(Eigen::Vector3d& v, Io& io) {
+void Visit(Vector3& v, Io& io) {
   for (int k = 0; k < 3; ++k) io.F64(v[k]);
 }
 

@@ -36,7 +36,7 @@ ActiveSet PredictActiveSet(const PackedIsland& island, const IslandState& state)
     const Bounds bounds = PredictedBounds(island, state, set, row);
     if (row.diagonal <= 0 || bounds.hi - bounds.lo <= 2 * tolerance) continue;
 
-    const double natural = state.x[i] - Slack(row, state.u, state.x[i]) / row.diagonal;
+    const double natural = state.x[i] - RelativeVelocity(row, state.u, state.x[i]) / row.diagonal;
     if (natural >= bounds.hi - tolerance) {
       set[i] = RowSide::kHi;
     } else if (natural > bounds.lo + tolerance) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reference/pack.h"
-#include "simd/pairs/pair_law.h"
+#include "simd/pairs/pair_active_set.h"
 
 namespace cairn {
 

@@ -46,9 +46,9 @@ void IslandCycle::Advance(BudgetMeter* meter) {
   // what was left when it was planned, other islands may have spent since
   const bool stepped = std::exchange(step_next_, false) && StepFits(meter);
   if (stepped) {
-    StepLeg(meter);
+    StepRound(meter);
   } else {
-    Sweeps(SweepsOfLeg(), meter);
+    Sweeps(SweepsOfRound(), meter);
   }
   if (done()) return;
   if (at_.sweeps >= settings_.max_sweeps) return Stop(StopReason::kSweepLimit);
@@ -65,7 +65,7 @@ bool IslandCycle::Spent(const BudgetMeter& meter) const {
   return meter.spent() && at_.sweeps >= LeastSweeps(settings_);
 }
 
-int IslandCycle::SweepsOfLeg() const {
+int IslandCycle::SweepsOfRound() const {
   return std::min(settings_.k_gs, settings_.max_sweeps - at_.sweeps);
 }
 
@@ -114,7 +114,7 @@ bool IslandCycle::StepsLeft() const {
 
 double IslandCycle::UnitsAfterStep() const {
   // its sweeps, and as many without it, which it has to beat
-  return 2 * (SweepsOfLeg() + kMeasureSweeps) * units_per_sweep();
+  return 2 * (SweepsOfRound() + kMeasureSweeps) * units_per_sweep();
 }
 
 bool IslandCycle::StepFits(BudgetMeter* meter) const {
@@ -128,7 +128,7 @@ bool IslandCycle::StepPays(BudgetMeter* meter) {
   return pays;
 }
 
-void IslandCycle::StepLeg(BudgetMeter* meter) {
+void IslandCycle::StepRound(BudgetMeter* meter) {
   const Point before = at_;
   const StepSettings step = memory_->Step(settings_);
   meter->Begin();
@@ -139,7 +139,7 @@ void IslandCycle::StepLeg(BudgetMeter* meter) {
   report_.step_work += static_cast<std::int64_t>(cost);
 
   // judged after sweeps: before them, nearly every good step looks worse
-  Sweeps(SweepsOfLeg(), meter);
+  Sweeps(SweepsOfRound(), meter);
   memory_->SawJoints(result);
   const Merit merit = MeasureMerit(island_, at_.state);
   const bool violent =

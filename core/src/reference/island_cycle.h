@@ -43,7 +43,7 @@ class IslandCycle {
   bool StepPays(BudgetMeter* meter);
   bool StepFits(BudgetMeter* meter) const;
   double UnitsAfterStep() const;
-  void StepLeg(BudgetMeter* meter);
+  void StepRound(BudgetMeter* meter);
   /// After a step: keeps it, or the same number of sweeps from @p before alone.
   /// @p sound: it may be kept
   bool KeepBetter(Point before, bool sound, BudgetMeter* meter);
@@ -53,7 +53,7 @@ class IslandCycle {
   /// Up to @p count sweeps; stops early when the budget is spent or nothing moves.
   void Sweeps(int count, BudgetMeter* meter);
   bool SweepOnce(BudgetMeter* meter);
-  int SweepsOfLeg() const;
+  int SweepsOfRound() const;
   /// The budget is spent, and the sweeps that are made in any case are done.
   bool Spent(const BudgetMeter& meter) const;
   Residual MeasureNow(BudgetMeter* meter) const;

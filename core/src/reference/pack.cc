@@ -35,7 +35,8 @@ PackedRow Packer::PackRow(const Row& row) const {
   packed.target = row.target;
   const auto subtract = [&](int body, const Eigen::Vector3d& j_v, const Eigen::Vector3d& j_w) {
     if (body == kWorld) return;
-    packed.target -= j_v.dot(bodies_[body].free.linear) + j_w.dot(bodies_[body].free.angular);
+    packed.target -=
+        j_v.dot(View(bodies_[body].free.linear)) + j_w.dot(View(bodies_[body].free.angular));
   };
   subtract(row.body_a, row.linear_a, row.angular_a);
   subtract(row.body_b, row.linear_b, row.angular_b);
@@ -48,7 +49,7 @@ PackedRow Packer::PackRow(const Row& row) const {
   packed.friction = row.friction;
   packed.parent = row.parent == kNoRow ? kNoRow : local_row_[row.parent];
   packed.max_sweeps = row.host.max_sweeps;
-  packed.angular = row.linear_a.isZero(0) && row.linear_b.isZero(0);
+  packed.angular = View(row.linear_a).isZero(0) && View(row.linear_b).isZero(0);
   return packed;
 }
 
@@ -86,7 +87,7 @@ IslandState Packer::Start(const PackedIsland& packed, const Island& island,
 namespace {
 
 bool IsFinite(const Velocity& velocity) {
-  return velocity.linear.allFinite() && velocity.angular.allFinite();
+  return View(velocity.linear).allFinite() && View(velocity.angular).allFinite();
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ inline double RelativeVelocity(const PackedRow& row, const std::vector<Vector6>&
 }
 
 /// w = G u + E x - target of one row.
-inline double Slack(const PackedRow& row, const std::vector<Vector6>& u, double x) {
+inline double RelativeVelocity(const PackedRow& row, const std::vector<Vector6>& u, double x) {
   return RelativeVelocity(row, u) + row.compliance * x - row.target;
 }
 

@@ -19,7 +19,7 @@ Residual MeasureResidual(const PackedIsland& island, const IslandState& state) {
     const PackedRow& row = island.rows[i];
     if (row.diagonal <= 0) continue;
     const double x = state.x[i];
-    const double w = Slack(row, state.u, x);
+    const double w = RelativeVelocity(row, state.u, x);
     const double natural = Clamp(x - w / row.diagonal, BoundsOf(row, state.x));
     const double error = row.diagonal * std::abs(x - natural);
 

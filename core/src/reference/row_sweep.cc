@@ -35,7 +35,7 @@ double SweepRows(const PackedIsland& island, SweepRange range, detail::LiftedFri
 
     // relax the row alone, then back inside its bounds:  x := clamp(x - w / d)
     const double old = state->x[i];
-    const double w = Slack(row, state->u, old);
+    const double w = RelativeVelocity(row, state->u, old);
     const double change = Set(row, i, Clamp(old - row.step * w, BoundsOf(row, state->x)), state);
     largest = std::max(largest, row.diagonal * std::abs(change));
   }

@@ -58,7 +58,7 @@ void Refine(const PackedIsland& island, const ActiveSet& set, const std::vector<
   for (size_t i = 0; i < island.rows.size(); ++i) {
     if (weights[i] == 0) continue;
     const PackedRow& row = island.rows[i];
-    const double r = -Slack(row, state->u, state->x[i]);
+    const double r = -RelativeVelocity(row, state->u, state->x[i]);
     AddScaled(row.g_a, weights[i] * r, &rhs[row.a]);
     AddScaled(row.g_b, weights[i] * r, &rhs[row.b]);
   }
@@ -68,7 +68,7 @@ void Refine(const PackedIsland& island, const ActiveSet& set, const std::vector<
   for (size_t i = 0; i < island.rows.size(); ++i) {
     if (weights[i] == 0) continue;
     const PackedRow& row = island.rows[i];
-    const double r = -Slack(row, state->u, state->x[i]);
+    const double r = -RelativeVelocity(row, state->u, state->x[i]);
     state->x[i] += weights[i] * (r - RelativeVelocity(row, rhs));
   }
 }

@@ -39,32 +39,33 @@ std::string_view Describe(SpanKind kind) {
 }
 
 SpanRecorder::SpanRecorder(int workers, int spans_of_worker)
-    : lanes_(std::clamp(workers, 1, kMostWorkers)) {
-  for (Lane& lane : lanes_) lane.spans.resize(std::max(1, spans_of_worker));
+    : threads_(std::clamp(workers, 1, kMostWorkers)) {
+  for (OfThread& thread : threads_) thread.spans.resize(std::max(1, spans_of_worker));
 }
 
 void SpanRecorder::Clear() {
-  for (Lane& lane : lanes_) {
-    lane.size = 0;
-    lane.dropped = 0;
+  for (OfThread& thread : threads_) {
+    thread.size = 0;
+    thread.dropped = 0;
   }
 }
 
 std::span<const Span> SpanRecorder::spans(int worker) const {
-  const Lane& lane = lanes_[worker];
-  return std::span(lane.spans).first(lane.size);
+  const OfThread& thread = threads_[worker];
+  return std::span(thread.spans).first(thread.size);
 }
 
 std::int64_t SpanRecorder::dropped() const {
-  return std::accumulate(lanes_.begin(), lanes_.end(), std::int64_t{0},
-                         [](std::int64_t sum, const Lane& lane) { return sum + lane.dropped; });
+  return std::accumulate(
+      threads_.begin(), threads_.end(), std::int64_t{0},
+      [](std::int64_t sum, const OfThread& thread) { return sum + thread.dropped; });
 }
 
 void SpanRecorder::Add(int worker, const Span& span) {
   if (worker < 0 || worker >= workers()) return;
-  Lane& lane = lanes_[worker];
-  if (lane.size > 0) {
-    Span& last = lane.spans[lane.size - 1];
+  OfThread& thread = threads_[worker];
+  if (thread.size > 0) {
+    Span& last = thread.spans[thread.size - 1];
     if (last.label == span.label && (last.units > 0) == (span.units > 0) &&
         span.begin >= last.end && span.begin - last.end <= kSame) {
       last.end = span.end;
@@ -72,11 +73,11 @@ void SpanRecorder::Add(int worker, const Span& span) {
       return;
     }
   }
-  if (lane.size == static_cast<int>(lane.spans.size())) {
-    ++lane.dropped;
+  if (thread.size == static_cast<int>(thread.spans.size())) {
+    ++thread.dropped;
     return;
   }
-  lane.spans[lane.size++] = span;
+  thread.spans[thread.size++] = span;
 }
 
 }  // namespace cairn

@@ -56,7 +56,7 @@ int BlockStep<T>::Find(int refinements, Crew* crew) {
   int made = 0;
   for (; CloseAfter(made), Any(kOpen) && !Passes(deadline_); ++made) {
     WorkOn(kOpen);
-    ForBlocks(laws_.find_weights);
+    ForBlocks(kernels_.find_weights);
     const bool factorised =
         system_->Factorise(*plan_, *group_, *blocks_, weights_, crew, deadline_);
     ForIslands([&](int island) {
@@ -72,7 +72,7 @@ int BlockStep<T>::Find(int refinements, Crew* crew) {
     RefineWhileSetHolds(refinements);
   }
   if (Passes(deadline_)) return made;
-  if (bounded_) ForBlocks(laws_.project);
+  if (bounded_) ForBlocks(kernels_.project);
   FindJointSpeeds(&StepResult::solved_joint_speed);
   if (CondenseJoints(crew)) ++made;
   return made;
@@ -93,8 +93,8 @@ void BlockStep<T>::Predict() {
   }
   start_ = x_;
   ReadVelocities();
-  FindSlack();
-  ForBlocks(laws_.predict);
+  FindRelativeVelocities();
+  ForBlocks(kernels_.predict);
 }
 
 template <class T>
@@ -147,12 +147,12 @@ void BlockStep<T>::WorkOn(char phase) {
 template <class T>
 template <class Lines>
 void BlockStep<T>::CopyTaken(const Lines& from, Lines* to) {
-  ForBlocks([&](const simd::PairLaw<T>& law) {
-    const auto first = static_cast<size_t>(law.x - x_.data());
-    for (int i = 0; i < law.block.row_count; ++i) {
+  ForBlocks([&](const simd::PairActiveSet<T>& set) {
+    const auto first = static_cast<size_t>(set.x - x_.data());
+    for (int i = 0; i < set.block.row_count; ++i) {
       for (int l = 0; l < kLanes; ++l) {
         auto& number = (*to)[first + i].lane[l];
-        number = law.lanes.taken.lane[l] != 0 ? from[first + i].lane[l] : number;
+        number = set.lanes.taken.lane[l] != 0 ? from[first + i].lane[l] : number;
       }
     }
   });
@@ -161,18 +161,18 @@ void BlockStep<T>::CopyTaken(const Lines& from, Lines* to) {
 template <class T>
 template <class Function>
 void BlockStep<T>::ForBlocks(const Function& function) {
-  for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) function(LawOf(b));
+  for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) function(ActiveSetOf(b));
 }
 
 template <class T>
-simd::PairLaw<T> BlockStep<T>::LawOf(int b) {
+simd::PairActiveSet<T> BlockStep<T>::ActiveSetOf(int b) {
   const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
   const size_t x = block.x - static_cast<size_t>(group_->first_x);
   return {.block = block,
           .lines = blocks_->data.data() + block.data,
           .lanes = lanes_[b],
           .x = x_.data() + x,
-          .slack = slack_.data() + x,
+          .w = w_.data() + x,
           .weights = weights_.data() + x,
           .product = product_.data() + x,
           .sides = sides_.data() + x};
@@ -181,7 +181,7 @@ simd::PairLaw<T> BlockStep<T>::LawOf(int b) {
 template <class T>
 void BlockStep<T>::Read() {
   const auto lines = static_cast<size_t>(group_->x_lines);
-  for (auto* of_rows : {&x_, &slack_, &weights_, &product_}) of_rows->resize(lines);
+  for (auto* of_rows : {&x_, &w_, &weights_, &product_}) of_rows->resize(lines);
   sides_.resize(lines);
   u_.resize(6 * static_cast<size_t>(system_->nodes()));
   du_.resize(u_.size());
@@ -234,10 +234,10 @@ void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T
   std::fill(v->begin(), v->end(), T{0});
   LineT of_pair[simd::kPairLines];
   for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
-    const simd::PairLaw<T> law = LawOf(b);
-    const simd::PairBlock& block = law.block;
+    const simd::PairActiveSet<T> set = ActiveSetOf(b);
+    const simd::PairBlock& block = set.block;
     products_.multiply_transposed(
-        block, law.lines, y.data() + (block.x - static_cast<size_t>(group_->first_x)), of_pair);
+        block, set.lines, y.data() + (block.x - static_cast<size_t>(group_->first_x)), of_pair);
     const auto add = [&](int slot, int lane, const LineT* lines) {
       const int node = system_->node_of_slot(slot);
       for (int k = 0; k < 6 && node >= 0; ++k) (*v)[6 * node + k] += lines[k].lane[lane];
@@ -253,8 +253,8 @@ template <class T>
 void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
   LineT of_pair[simd::kPairLines] = {};
   for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
-    const simd::PairLaw<T> law = LawOf(b);
-    const simd::PairBlock& block = law.block;
+    const simd::PairActiveSet<T> set = ActiveSetOf(b);
+    const simd::PairBlock& block = set.block;
     const auto get = [&](int slot, int lane, LineT* lines) {
       const int node = system_->node_of_slot(slot);
       for (int k = 0; k < 6; ++k) lines[k].lane[lane] = node < 0 ? T{0} : v[6 * node + k];
@@ -263,28 +263,28 @@ void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
       get(block.a[l], l, of_pair);
       if (block.form != simd::PairForm::kSingle) get(block.b[l], l, of_pair + 6);
     }
-    products_.multiply(block, law.lines, of_pair,
+    products_.multiply(block, set.lines, of_pair,
                        y->data() + (block.x - static_cast<size_t>(group_->first_x)));
   }
 }
 
 template <class T>
-void BlockStep<T>::FindSlack() {
-  Multiply(u_, &slack_);
-  ForBlocks(laws_.find_slack);
+void BlockStep<T>::FindRelativeVelocities() {
+  Multiply(u_, &w_);
+  ForBlocks(kernels_.find_relative_velocities);
 }
 
 /// One solve for the free rows:  H du = G_F' W r,  x_F += W (r - G_F du)  with  r = -w_F.
 template <class T>
 void BlockStep<T>::Refine() {
-  if (bounded_) ForBlocks(laws_.fix);
+  if (bounded_) ForBlocks(kernels_.fix);
   MultiplyTransposed(x_, &u_);
-  FindSlack();
-  ForBlocks(laws_.weigh);
+  FindRelativeVelocities();
+  ForBlocks(kernels_.weigh);
   MultiplyTransposed(product_, &du_);
   system_->Solve(du_, deadline_);
   Multiply(du_, &product_);
-  ForBlocks(laws_.advance);
+  ForBlocks(kernels_.advance);
 }
 
 /// Solves again with the same factor while the predicted set holds: each time the error of a mode
@@ -294,7 +294,7 @@ template <class T>
 void BlockStep<T>::RefineWhileSetHolds(int refinements) {
   for (int k = 1; k < refinements && Any(kRefined) && !Passes(deadline_); ++k) {
     WorkOn(kRefined);
-    ForBlocks(laws_.find_weights);
+    ForBlocks(kernels_.find_weights);
     before_ = x_;
     sides_before_ = sides_;
     Refine();
@@ -320,7 +320,7 @@ template <class T>
 void BlockStep<T>::Remove() {
   if (!bounded_) return;
   for (int b = 0; b < group_->blocks; ++b) {
-    const std::uint32_t removed = laws_.remove_violated(LawOf(b));
+    const std::uint32_t removed = kernels_.remove_violated(ActiveSetOf(b));
     for (int l = 0; l < kLanes && removed != 0; ++l) {
       if ((removed >> l & 1) == 0) continue;
       phases_[plan_->island_of(group_->first_block + b, l)] = kOpen;
@@ -330,7 +330,7 @@ void BlockStep<T>::Remove() {
 
 template <class T>
 void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
-  ForBlocks(laws_.copy_weighted);
+  ForBlocks(kernels_.copy_weighted);
   MultiplyTransposed(product_, out);
 }
 
@@ -339,15 +339,14 @@ void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
 template <class T>
 void BlockStep<T>::FindSmallest() {
   MultiplyWeighted(&wanted_);
-  ForBlocks(laws_.clear_weighted);
+  ForBlocks(kernels_.clear_weighted);
   for (int k = 0; k < kCondensingSolves && !Passes(deadline_); ++k) {
     MultiplyWeighted(&u_);
     for (size_t i = 0; i < u_.size(); ++i) u_[i] = wanted_[i] - u_[i];
-    Multiply(u_, &slack_);
+    Multiply(u_, &w_);
     for (size_t i = 0; i < x_.size(); ++i) {
       for (int l = 0; l < kLanes; ++l) {
-        product_[i].lane[l] =
-            weights_[i].lane[l] != 0 ? weights_[i].lane[l] * slack_[i].lane[l] : T{0};
+        product_[i].lane[l] = weights_[i].lane[l] != 0 ? weights_[i].lane[l] * w_[i].lane[l] : T{0};
       }
     }
     MultiplyTransposed(product_, &du_);
@@ -356,7 +355,7 @@ void BlockStep<T>::FindSmallest() {
     for (size_t i = 0; i < x_.size(); ++i) {
       for (int l = 0; l < kLanes; ++l) {
         if (weights_[i].lane[l] == 0) continue;
-        x_[i].lane[l] += weights_[i].lane[l] * (slack_[i].lane[l] - product_[i].lane[l]);
+        x_[i].lane[l] += weights_[i].lane[l] * (w_[i].lane[l] - product_[i].lane[l]);
       }
     }
   }
@@ -372,7 +371,7 @@ bool BlockStep<T>::CondenseJoints(Crew* crew) {
   });
   if (any) {
     WorkOn(kOpen);
-    ForBlocks(laws_.find_joint_weights);
+    ForBlocks(kernels_.find_joint_weights);
     before_ = x_;
     if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew, deadline_)) {
       FindSmallest();
@@ -397,7 +396,7 @@ template <class T>
 void BlockStep<T>::FindJointSpeeds(double StepResult::*of) {
   for (int b = 0; b < group_->blocks; ++b) {
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
-    const LineT speeds = laws_.find_joint_speeds(LawOf(b));
+    const LineT speeds = kernels_.find_joint_speeds(ActiveSetOf(b));
     for (int l = 0; l < block.lanes; ++l) {
       double& speed = islands_[plan_->island_of(group_->first_block + b, l)].result.*of;
       speed = std::max(speed, static_cast<double>(speeds.lane[l]));
@@ -414,8 +413,8 @@ void BlockStep<T>::Write() {
   MultiplyTransposed(x_, &u_);
 
   for (int b = 0; b < group_->blocks; ++b) {
-    const simd::PairLaw<T> law = LawOf(b);
-    const simd::PairBlock& block = law.block;
+    const simd::PairActiveSet<T> set = ActiveSetOf(b);
+    const simd::PairBlock& block = set.block;
     const auto write = [&](int slot) {
       const int node = system_->node_of_slot(slot);
       if (node < 0) return;
@@ -428,7 +427,7 @@ void BlockStep<T>::Write() {
     for (int l = 0; l < block.lanes; ++l) {
       if (!islands_[plan_->island_of(group_->first_block + b, l)].result.solved) continue;
       for (int i = 0; i < block.row_count; ++i) {
-        blocks_->x[block.x + i].lane[l] = static_cast<float>(law.x[i].lane[l]);
+        blocks_->x[block.x + i].lane[l] = static_cast<float>(set.x[i].lane[l]);
       }
       write(block.a[l]);
       if (block.form != simd::PairForm::kSingle) write(block.b[l]);

@@ -6,7 +6,7 @@
 
 #include "pack/block_pack.h"
 #include "plan/plan.h"
-#include "simd/pairs/pair_law.h"
+#include "simd/pairs/pair_active_set.h"
 #include "simd/pairs/pair_products.h"
 #include "step/block_system.h"
 #include "step/step_settings.h"
@@ -28,7 +28,8 @@ template <class T>
 class BlockStep {
  public:
   explicit BlockStep(simd::Target target)
-      : products_(simd::PairProductsFor<T>(target)), laws_(simd::PairLawKernelsFor<T>(target)) {}
+      : products_(simd::PairProductsFor<T>(target)),
+        kernels_(simd::ActiveSetKernelsFor<T>(target)) {}
 
   /// @p refinements: StepSettings::refinements. @p islands: one for each of the plan. An island
   /// whose system could not be factorised stays as it is. Returns how many factorisations were made
@@ -47,7 +48,7 @@ class BlockStep {
   void Predict();
   /// u as the sweeps left it: floats that x belongs to but for rounding.
   void ReadVelocities();
-  void FindSlack();
+  void FindRelativeVelocities();
   void Refine();
   void RefineWhileSetHolds(int refinements);
   void Remove();
@@ -71,17 +72,17 @@ class BlockStep {
   template <class Lines>
   void CopyTaken(const Lines& from, Lines* to);
 
-  /// function(law) for every block of the group
+  /// function(set) for every block of the group
   template <class Function>
   void ForBlocks(const Function& function);
-  simd::PairLaw<T> LawOf(int block);
+  simd::PairActiveSet<T> ActiveSetOf(int block);
   /// v := G' y, by node.
   void MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v);
   /// y := G v
   void Multiply(const std::vector<T>& v, std::vector<LineT>* y);
 
   const simd::PairProducts<T>& products_;
-  const simd::PairLawKernels<T>& laws_;
+  const simd::ActiveSetKernels<T>& kernels_;
   const Plan* plan_ = nullptr;
   const Group* group_ = nullptr;
   BlockData* blocks_ = nullptr;
@@ -92,7 +93,7 @@ class BlockStep {
   std::vector<char> phases_, phases_before_;  ///< by island
 
   std::vector<simd::LaneSettings<T>> lanes_;  ///< by block
-  std::vector<LineT> x_, start_, before_, slack_, weights_, product_;
+  std::vector<LineT> x_, start_, before_, w_, weights_, product_;
   std::vector<simd::SideLine> sides_, sides_before_;
   std::vector<T> u_, du_, wanted_;  ///< six numbers a node
   std::vector<double> sums_, counts_;

@@ -51,7 +51,7 @@ class Nncg::Pass final : public StagedWork {
     for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
       const simd::PairBlock& block = plan_.blocks()[b];
       kernels_.move_lines(
-          &nncg_.WayOf(0), plan_.islands_of(b), block.lanes, block.row_count,
+          &nncg_.MomentumOf(0), plan_.islands_of(b), block.lanes, block.row_count,
           {&now_.x[block.x], &nncg_.last_.x[block.x], &nncg_.direction_.x[block.x]});
     }
   }
@@ -59,7 +59,7 @@ class Nncg::Pass final : public StagedWork {
   void MoveBodies(const Group& group) {
     const auto of_group = [&](auto& bodies) { return bodies.data() + group.first_slot; };
     kernels_.move_bodies(
-        &nncg_.WayOf(0), of_group(nncg_.island_of_slot_), group.slots,
+        &nncg_.MomentumOf(0), of_group(nncg_.island_of_slot_), group.slots,
         {of_group(now_.bodies), of_group(nncg_.last_.bodies), of_group(nncg_.direction_.bodies)});
   }
 
@@ -71,7 +71,7 @@ class Nncg::Pass final : public StagedWork {
 };
 
 void Nncg::Begin(const BlockFrame& frame) {
-  ways_.assign(frame.plan().islands().size() + 1, {});
+  momenta_.assign(frame.plan().islands().size() + 1, {});
   energies_.assign(frame.plan().islands().size(), 0);
   known_ = false;
   if (plan_number_ == frame.plan_number()) return;
@@ -115,12 +115,12 @@ void Nncg::ForgetWhereRowsEnd(int sweeps) {
 }
 
 void Nncg::Forget(int island) {
-  WayOf(island) = {};
+  MomentumOf(island) = {};
   energies_[island] = 0;
 }
 
 void Nncg::ForgetAll() {
-  std::fill(ways_.begin(), ways_.end(), simd::Way{});
+  std::fill(momenta_.begin(), momenta_.end(), simd::Momentum{});
   std::fill(energies_.begin(), energies_.end(), 0);
 }
 
@@ -128,8 +128,8 @@ void Nncg::See(int island, double energy) {
   const double before = std::exchange(energies_[island], energy);
   const double ratio = before == 0 ? 0 : energy / before;
   const bool shrinks = ratio <= 1;
-  WayOf(island) = {.beta = shrinks ? static_cast<float>(ratio * ratio) : 0,
-                   .keep = shrinks ? 1.0f : 0.0f};
+  MomentumOf(island) = {.beta = shrinks ? static_cast<float>(ratio * ratio) : 0,
+                        .keep = shrinks ? 1.0f : 0.0f};
 }
 
 void Nncg::Remember(const BlockData& now, Crew* crew) {

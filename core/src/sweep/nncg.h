@@ -42,7 +42,7 @@ class Nncg {
   /// The state to go on from: it has no direction yet.
   void Remember(const BlockData& now, Crew* crew);
   void FindEnds(const Plan& plan);
-  simd::Way& WayOf(int island) { return ways_[static_cast<size_t>(island) + 1]; }
+  simd::Momentum& MomentumOf(int island) { return momenta_[static_cast<size_t>(island) + 1]; }
   /// One number for each part of the state.
   struct State {
     std::vector<simd::Line> x;
@@ -51,7 +51,7 @@ class Nncg {
 
   /// How islands go on along their directions; the first one is of what belongs to none, and does
   /// not move.
-  std::vector<simd::Way> ways_;
+  std::vector<simd::Momentum> momenta_;
   std::vector<double> energies_;  ///< by island, of the last sweep; 0 if there was none
   std::vector<int> island_of_slot_;
   /// Rows of an island do not take part in further sweeps than that.

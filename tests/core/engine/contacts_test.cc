@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/engine/small_world.h"
 
 namespace cairn {
@@ -188,7 +189,7 @@ TEST(Contacts, CarryWhatStandsOnAPlatform) {
     });
   }
   EXPECT_EQ(world.things[0].velocity.linear, Vector3d(0.5, 1, 0));
-  EXPECT_NEAR((world.things[1].velocity.linear - Vector3d(0.5, 1, 0)).norm(), 0, 1e-4);
+  EXPECT_NEAR((View(world.things[1].velocity.linear) - Vector3d(0.5, 1, 0)).norm(), 0, 1e-4);
 }
 
 TEST(Contacts, OfTwoBodiesThatCannotMoveDoNothing) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/cairn.h"
+#include "cairn/detail/eigen.h"
 #include "cairn/joints.h"
 #include "cairn/solver.h"
 #include "tests/c/c_problems.h"
@@ -22,7 +23,7 @@ void RunFrames(const Settings& settings, double depth) {
   std::vector<Body> bodies(kBodies);
   for (int i = 0; i < kBodies; ++i) {
     bodies[i].inv_mass = 1;
-    bodies[i].inv_inertia.setIdentity();
+    View(bodies[i].inv_inertia).setIdentity();
     bodies[i].impulse = {0, -0.16, 0};
     bodies[i].id = static_cast<std::uint64_t>(i + 1);
   }
@@ -41,7 +42,7 @@ void RunFrames(const Settings& settings, double depth) {
       const std::array points{TouchPoint{.depth = depth, .feature = 1},
                               TouchPoint{.position = {1, 0, 0}, .depth = depth}};
       contacts.Add({.body_a = i, .centre_a = {0, 0.5, 0}, .id = bodies[i].id}, points);
-      if (k % 2 == 0) joints.Add(HingeJoint({.motor_most = 1}), {.body = i}, {}, bodies[i].id);
+      if (k % 2 == 0) joints.Add(HingeJoint({.max_motor_force = 1}), {.body = i}, {}, bodies[i].id);
     }
     solver.Solve(ProblemOf(input, contacts, joints), StartOf(&contacts, &joints), velocities,
                  &report);

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/joints.h"
 #include "cairn/solver.h"
 
@@ -43,7 +44,8 @@ class Tower {
   double speed() const {
     double fastest = 0;
     for (const Box& box : boxes_) {
-      fastest = std::max({fastest, box.velocity.linear.norm(), box.velocity.angular.norm()});
+      fastest =
+          std::max({fastest, View(box.velocity.linear).norm(), View(box.velocity.angular).norm()});
     }
     return fastest;
   }
@@ -98,10 +100,10 @@ class Tower {
 
   static void Move(const Velocity& velocity, Box* box) {
     box->velocity = velocity;
-    box->position += kStep * velocity.linear;
-    const double angle = kStep * velocity.angular.norm();
+    box->position += kStep * View(velocity.linear);
+    const double angle = kStep * View(velocity.angular).norm();
     if (angle == 0) return;
-    box->turn = Eigen::AngleAxisd(angle, velocity.angular.normalized()) * box->turn;
+    box->turn = Eigen::AngleAxisd(angle, View(velocity.angular).normalized()) * box->turn;
     box->turn.normalize();
   }
 

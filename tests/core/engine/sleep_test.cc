@@ -18,10 +18,8 @@ struct Gliders {
   Report report;
 
   int Add(const Velocity& velocity, std::uint64_t id) {
-    bodies.push_back({.inv_mass = 1,
-                      .inv_inertia = Eigen::Matrix3d::Identity(),
-                      .velocity = velocity,
-                      .id = id});
+    bodies.push_back(
+        {.inv_mass = 1, .inv_inertia = Matrix3::Diagonal(1, 1, 1), .velocity = velocity, .id = id});
     return static_cast<int>(bodies.size()) - 1;
   }
   /// Across all that moves here: along y.

@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/joints.h"
 #include "cairn/solver.h"
 
@@ -69,10 +70,10 @@ struct SmallWorld {
 
  private:
   void Move(const Velocity& velocity, Thing* thing) const {
-    thing->position += h * velocity.linear;
-    const double angle = h * velocity.angular.norm();
+    thing->position += h * View(velocity.linear);
+    const double angle = h * View(velocity.angular).norm();
     if (angle == 0) return;
-    thing->turn = Eigen::AngleAxisd(angle, velocity.angular.normalized()) * thing->turn;
+    thing->turn = Eigen::AngleAxisd(angle, View(velocity.angular).normalized()) * thing->turn;
     thing->turn.normalize();
   }
 };

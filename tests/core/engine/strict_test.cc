@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/manifold_problems.h"
 
 namespace cairn {
@@ -101,8 +102,9 @@ TEST(ValidateStrictly, NamesManifolds) {
               ElementsAre("manifolds[1].first_point is 0, must be behind what others have"));
   EXPECT_THAT(After([](auto* s) { s->manifolds[2].first_point = 9; }),
               ElementsAre("manifolds[2].first_point is 9, must be 0 to 8"));
-  EXPECT_THAT(After([](auto* s) { s->bodies[0].inv_mass = 0, s->bodies[0].inv_inertia.setZero(); }),
-              ElementsAre(HasSubstr("must be a body that moves, or body_b")));
+  EXPECT_THAT(
+      After([](auto* s) { s->bodies[0].inv_mass = 0, View(s->bodies[0].inv_inertia).setZero(); }),
+      ElementsAre(HasSubstr("must be a body that moves, or body_b")));
 }
 
 TEST(ValidateStrictly, NamesRowsOfJoints) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/block_problems.h"
 
 namespace cairn {
@@ -227,13 +228,16 @@ TEST(BlockInput, BeyondTheRangeOfFloatsIsSolvedByTheReference) {
        [](Scene* s, Start*) {
          for (Body& body : s->bodies) {
            body.inv_mass *= 1e-30;
-           body.inv_inertia *= 1e-30;
+           View(body.inv_inertia) *= 1e-30;
          }
        }},
       {"fast", [](Scene* s, Start*) { s->bodies[1].velocity.linear.z() = -1e22; }},
       {"start", [](Scene*, Start* x) { (*x)[12] = 1e25; }},
       {"friction", [](Scene* s, Start*) { s->rows[13].friction = 1e50; }},
-      {"row", [](Scene* s, Start*) { s->rows[12].linear_a *= 1e20, s->rows[12].linear_b *= 1e20; }},
+      {"row",
+       [](Scene* s, Start*) {
+         View(s->rows[12].linear_a) *= 1e20, View(s->rows[12].linear_b) *= 1e20;
+       }},
   };
   for (const Spoiled& spoiled : large) {
     SCOPED_TRACE(spoiled.what);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "pack/block_frame.h"
 #include "tests/core/support/block_problems.h"
 
@@ -59,10 +60,11 @@ Side SideOf(const Scene& scene, int body, const Eigen::Vector3d& linear,
             const Eigen::Vector3d& angular) {
   if (body == kWorld) return {};
   const Body& b = scene.bodies[body];
-  const Eigen::Vector3d inv_mass = b.inv_mass * b.linear_factor;
-  const Eigen::Vector3d v = b.velocity.linear + inv_mass.cwiseProduct(b.impulse);
-  const Eigen::Vector3d turn = b.velocity.angular + b.inv_inertia * b.angular_impulse;
-  return {linear.dot(inv_mass.cwiseProduct(linear)) + angular.dot(b.inv_inertia * angular),
+  const Eigen::Vector3d inv_mass = b.inv_mass * View(b.linear_factor);
+  const Eigen::Vector3d v = View(b.velocity.linear) + inv_mass.cwiseProduct(View(b.impulse));
+  const Eigen::Vector3d turn =
+      View(b.velocity.angular) + View(b.inv_inertia) * View(b.angular_impulse);
+  return {linear.dot(inv_mass.cwiseProduct(linear)) + angular.dot(View(b.inv_inertia) * angular),
           linear.dot(v) + angular.dot(turn),
           linear.norm() * v.norm() + angular.norm() * turn.norm()};
 }
@@ -162,12 +164,14 @@ TEST(BlockPack, AndBackGivesTheProjectedStartAndItsVelocities) {
         const Row& row = scene.rows[k];
         const bool is_a = row.body_a == static_cast<int>(i),
                    is_b = row.body_b == static_cast<int>(i);
-        if (is_a) push += expected[k] * row.linear_a, turn += expected[k] * row.angular_a;
-        if (is_b) push += expected[k] * row.linear_b, turn += expected[k] * row.angular_b;
+        if (is_a)
+          push += expected[k] * View(row.linear_a), turn += expected[k] * View(row.angular_a);
+        if (is_b)
+          push += expected[k] * View(row.linear_b), turn += expected[k] * View(row.angular_b);
       }
-      by_hand[i].linear += body.inv_mass * body.linear_factor.cwiseProduct(push);
-      by_hand[i].angular += body.inv_inertia * turn;
-      most = std::max({most, by_hand[i].linear.norm(), by_hand[i].angular.norm()});
+      View(by_hand[i].linear) += body.inv_mass * View(body.linear_factor).cwiseProduct(push);
+      View(by_hand[i].angular) += View(body.inv_inertia) * turn;
+      most = std::max({most, View(by_hand[i].linear).norm(), View(by_hand[i].angular).norm()});
     }
     EXPECT_LT(test::Distance(velocities, by_hand), 60 * kFloat * most);
   }
@@ -179,13 +183,13 @@ TEST(BlockFrame, KeepsThePlanWhileOnlyNumbersChange) {
   ASSERT_EQ(laid.Begin(scene), PackResult::kDone);
   test::Random random(1);
   for (int frame = 0; frame < 5; ++frame) {
-    for (Body& body : scene.bodies) body.velocity.linear += random.Vector(0.1);
+    for (Body& body : scene.bodies) View(body.velocity.linear) += random.Vector(0.1);
     for (Row& row : scene.rows) {
       row.target += 0.01;
       row.friction *= 1.01;
-      row.linear_a *= 1.01;
-      row.linear_b *= 1.01;
-      row.angular_a += random.Vector(0.01);
+      View(row.linear_a) *= 1.01;
+      View(row.linear_b) *= 1.01;
+      View(row.angular_a) += random.Vector(0.01);
       if (row.compliance > 0) row.compliance *= 1.1;
       if (row.lo == -0.05) row.hi *= 1.01;
     }
@@ -226,7 +230,7 @@ TEST(BlockFrame, PlansAgainWhenTheStructureChanges) {
        [](Scene* s) {
          s->rows[4].linear_a = s->rows[4].linear_b = {0, 0, 0};
        }},
-      {"no longer opposite", [](Scene* s) { s->rows[16].linear_b *= 2; }},
+      {"no longer opposite", [](Scene* s) { View(s->rows[16].linear_b) *= 2; }},
       {"no longer movable", [](Scene* s) { s->bodies[1] = Body{}; }},
       {"one body more", [](Scene* s) { s->bodies.push_back(s->bodies[0]); }},
   };
@@ -263,7 +267,7 @@ TEST(BlockFrame, SaysWhatDoesNotFitAFloat) {
       {"light", [](Scene* s) { s->bodies[1].inv_mass = 1e30; }},
       {"heavy",
        [](Scene* s) {
-         for (Body& b : s->bodies) b.inv_mass = 1e-30, b.inv_inertia *= 1e-30;
+         for (Body& b : s->bodies) b.inv_mass = 1e-30, View(b.inv_inertia) *= 1e-30;
        }},
       {"fast", [](Scene* s) { s->bodies[1].velocity.linear.z() = -1e20; }},
       {"soft", [](Scene* s) { s->rows[13].compliance = 1e20; }},

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "plan/plan.h"
 #include "tests/core/support/block_problems.h"
 
@@ -56,14 +57,14 @@ class Oracle {
 
  private:
   static void Push(const Body& body, const Vector3d& push, const Vector3d& turn, Velocity* v) {
-    v->linear += body.inv_mass * body.linear_factor.cwiseProduct(push);
-    v->angular += body.inv_inertia * turn;
+    View(v->linear) += body.inv_mass * View(body.linear_factor).cwiseProduct(push);
+    View(v->angular) += View(body.inv_inertia) * turn;
   }
   void Apply(const Row& row, double x) {
     for (const auto& [body, linear, angular] :
          {std::tuple(row.body_a, row.linear_a, row.angular_a),
           std::tuple(row.body_b, row.linear_b, row.angular_b)}) {
-      if (body != kWorld) Push(scene_.bodies[body], x * linear, x * angular, &v_[body]);
+      if (body != kWorld) Push(scene_.bodies[body], x * View(linear), x * View(angular), &v_[body]);
     }
   }
   double Project(int index, double x) const {
@@ -83,9 +84,9 @@ class Oracle {
           std::tuple(row.body_b, row.linear_b, row.angular_b)}) {
       if (body == kWorld) continue;
       const Body& b = scene_.bodies[body];
-      d += linear.dot(b.inv_mass * b.linear_factor.cwiseProduct(linear));
-      d += angular.dot(b.inv_inertia * angular);
-      w += linear.dot(v_[body].linear) + angular.dot(v_[body].angular);
+      d += View(linear).dot(b.inv_mass * View(b.linear_factor).cwiseProduct(View(linear)));
+      d += View(angular).dot(View(b.inv_inertia) * View(angular));
+      w += View(linear).dot(View(v_[body].linear)) + View(angular).dot(View(v_[body].angular));
     }
     const bool held = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold &&
                       row.parent != kNoRow && x_[row.parent] <= 0;
@@ -211,7 +212,8 @@ void ExpectFollows(const std::function<void(std::vector<Body>*)>& change) {
   (void)test::Solve(&steady, scene);
   change(&scene.bodies);
   const Solution s = test::Solve(&steady, scene);
-  for (const Velocity& v : s.v) EXPECT_TRUE(v.linear.allFinite() && v.angular.allFinite());
+  for (const Velocity& v : s.v)
+    EXPECT_TRUE(View(v.linear).allFinite() && View(v.angular).allFinite());
   Oracle oracle(scene, Coloured(8), {});
   for (int sweep = 0; sweep < 8; ++sweep) oracle.Sweep(sweep);
   EXPECT_LT(test::Distance(s.x, oracle.x()), 6e-6);

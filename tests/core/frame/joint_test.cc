@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "pack/block_frame.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/manifold_problems.h"
@@ -55,7 +56,7 @@ TEST(Joint, CarriesWhatHangsFromIt) {
       ASSERT_TRUE(Solve(settings, &scene, &velocities).ok());
       EXPECT_NEAR(scene.joint_impulses[1], 2 * test::kGravityStep, 1e-3);
       EXPECT_NEAR(scene.joint_impulses[4], test::kGravityStep, 1e-3);
-      for (const Velocity& velocity : velocities) EXPECT_LE(velocity.linear.norm(), 1e-3);
+      for (const Velocity& velocity : velocities) EXPECT_LE(View(velocity.linear).norm(), 1e-3);
     }
   }
 }

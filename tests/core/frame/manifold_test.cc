@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "pack/block_frame.h"
 #include "problem/contact_expansion.h"
 #include "tests/core/support/block_problems.h"
@@ -88,7 +89,7 @@ std::vector<double> LinesOf(const BlockFrame& frame, const Row& row, const Pair&
   for (const double g : b) d += g * g;
   const auto subtract = [&](int i, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
     if (i == kWorld) return;
-    target -= linear.dot(body(i).free.linear) + angular.dot(body(i).free.angular);
+    target -= linear.dot(View(body(i).free.linear)) + angular.dot(View(body(i).free.angular));
   };
   subtract(row.body_a, row.linear_a, row.angular_a);
   subtract(row.body_b, row.linear_b, row.angular_b);
@@ -237,7 +238,7 @@ TEST(Manifold, StandsBesideRows) {
   ASSERT_EQ(solved.report.islands.size(), 2u);
   EXPECT_EQ(solved.report.islands[0].rows, solved.report.islands[1].rows);
   for (const Velocity& velocity : solved.velocities) {
-    EXPECT_NEAR(velocity.linear.norm(), 0, 5e-3);
+    EXPECT_NEAR(View(velocity.linear).norm(), 0, 5e-3);
   }
   // by hand: each face carries what is above it
   for (int i = 0; i < 5; ++i) {
@@ -265,7 +266,7 @@ TEST(Manifold, TurnsItsStartIntoTheDirectionsOfTheFrame) {
   // y x -x = z, t1 = x, t2 = x x y = z
   ManifoldScene scene = test::ManifoldTower(1);
   scene.bodies[0].velocity.linear = {1, 0, 0};
-  scene.bodies[0].inv_inertia.setZero();
+  View(scene.bodies[0].inv_inertia).setZero();
   scene.manifolds[0].points = 1;
   // last frame t1 was the second axis, z, and t2 = z x y = -x
   scene.point_impulses[0] = {.normal = 1, .tangential = {0.25f, 0.125f}, .heading = 2};
@@ -312,7 +313,7 @@ TEST(Manifold, ResistsTurningAsFarAsItIsPressed) {
     EXPECT_NEAR(solved.twists[0].rolling[0], -0.1, kFloat);
     EXPECT_NEAR(solved.twists[0].rolling[1], 0, kFloat);
     const Eigen::Vector3d spin(-0.4, 0.5, 0);
-    EXPECT_NEAR((solved.velocities[0].angular - spin).norm(), 0, kFloat);
+    EXPECT_NEAR((View(solved.velocities[0].angular) - spin).norm(), 0, kFloat);
   }
 }
 

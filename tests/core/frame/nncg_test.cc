@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/block_problems.h"
 
 namespace cairn {
@@ -39,20 +40,21 @@ std::vector<double> PlainNncg(const Scene& scene, const std::vector<int>& order,
   const auto inv_mass = [&](int body) { return body == kWorld ? 0 : scene.bodies[body].inv_mass; };
   const auto start = [&](int body) -> Eigen::Vector3d {
     if (body == kWorld) return {0, 0, 0};
-    return scene.bodies[body].velocity.linear + inv_mass(body) * scene.bodies[body].impulse;
+    return View(scene.bodies[body].velocity.linear) +
+           inv_mass(body) * View(scene.bodies[body].impulse);
   };
   // w = J v - target of a row, with v from all impulses
-  const auto slack = [&](const Row& row, const std::vector<double>& x) {
+  const auto w = [&](const Row& row, const std::vector<double>& x) {
     Eigen::Vector3d a = start(row.body_a), b = start(row.body_b);
     for (size_t j = 0; j < x.size(); ++j) {
       const Row& other = scene.rows[j];
       for (const auto& [body, v] : {std::pair(row.body_a, &a), std::pair(row.body_b, &b)}) {
         if (body == kWorld) continue;
-        if (other.body_a == body) *v += inv_mass(body) * x[j] * other.linear_a;
-        if (other.body_b == body) *v += inv_mass(body) * x[j] * other.linear_b;
+        if (other.body_a == body) *v += inv_mass(body) * x[j] * View(other.linear_a);
+        if (other.body_b == body) *v += inv_mass(body) * x[j] * View(other.linear_b);
       }
     }
-    return row.linear_a.dot(a) + row.linear_b.dot(b) - row.target;
+    return View(row.linear_a).dot(a) + View(row.linear_b).dot(b) - row.target;
   };
 
   std::vector<double> x(scene.rows.size()), last = x, along(x.size());
@@ -69,12 +71,12 @@ std::vector<double> PlainNncg(const Scene& scene, const std::vector<int>& order,
     double energy = 0;
     for (int i : order) {
       const Row& row = scene.rows[i];
-      const double d = inv_mass(row.body_a) * row.linear_a.squaredNorm() +
-                       inv_mass(row.body_b) * row.linear_b.squaredNorm();
+      const double d = inv_mass(row.body_a) * View(row.linear_a).squaredNorm() +
+                       inv_mass(row.body_b) * View(row.linear_b).squaredNorm();
       const double most = row.parent == kNoRow ? 0 : row.friction * std::max(0.0, x[row.parent]);
       const double lo = row.parent == kNoRow ? row.lo : -most;
       const double hi = row.parent == kNoRow ? row.hi : most;
-      const double to = std::clamp(x[i] - slack(row, x) / d, lo, hi);
+      const double to = std::clamp(x[i] - w(row, x) / d, lo, hi);
       energy += d * (to - x[i]) * (to - x[i]);
       x[i] = to;
     }
@@ -106,7 +108,7 @@ double DistanceToBlocks(const Scene& scene, const std::vector<int>& order, doubl
   double most = 0;
   for (const int sweeps : {1, 3, 4, 7, 12}) {
     Settings settings = Sweeps(Acceleration::kNncg, sweeps);
-    settings.k_gs = sweeps;  // the state after all of them, not the best on the way
+    settings.k_gs = sweeps;  // the state after all of them, not the best on the momentum
     const Solution blocks = test::Solve(settings, scene);
     EXPECT_EQ(blocks.report.sweeps, sweeps);
     most = std::max(most, test::Distance(blocks.x, PlainNncg(scene, order, sweeps, most_beta)));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/block_problems.h"
 
 namespace cairn {
@@ -28,7 +29,7 @@ struct Found {
   void Add(const Scene& scene, double omega = 1) {
     PairFinder finder;
     EXPECT_TRUE(
-        finder.Find(test::LawsOf(scene, omega), {}, test::MovableOf(scene), &shapes, &list));
+        finder.Find(test::KindsOf(scene, omega), {}, test::MovableOf(scene), &shapes, &list));
   }
   std::vector<int> rows(int pair) const {
     const auto rows = list.rows_of(list.pairs[pair]);
@@ -185,7 +186,7 @@ TEST(Pairs, OfABodyThatOnlyTurnsAreNoContactForm) {
 TEST(Pairs, WhoseRowsDoNotPushOppositelyAreNoContactForm) {
   Scene scene = Boxes(2);
   AddTouch(&scene, 0, 1);
-  scene.rows[1].linear_b *= 2;
+  View(scene.rows[1].linear_b) *= 2;
   EXPECT_EQ(Found(scene).list.pairs[0].form, PairForm::kJoint);
 }
 
@@ -212,7 +213,7 @@ TEST(Pairs, AreNotFoundWhereAParentMayNotBeOne) {
     PairFinder finder;
     ShapeTable shapes;
     PairList list;
-    return finder.Find(test::LawsOf(scene, 1), {}, test::MovableOf(scene), &shapes, &list);
+    return finder.Find(test::KindsOf(scene, 1), {}, test::MovableOf(scene), &shapes, &list);
   };
   EXPECT_TRUE(found(3));
   EXPECT_FALSE(found(0)) << "other bodies";

@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/test_clock.h"
 
@@ -219,7 +220,7 @@ TEST(Replay, MakesTimedStepsAgain) {
 /// done after one sweep.
 Scene RestingGroupLast() {
   Scene resting = test::Tower(10);
-  for (Body& body : resting.bodies) body.impulse.setZero();
+  for (Body& body : resting.bodies) View(body.impulse).setZero();
   std::vector<Scene> parts = {test::Wall(8, 8)};
   parts.insert(parts.end(), 10, resting);
   return test::Together(parts);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/solver.h"
 #include "tests/core/support/test_clock.h"
 
@@ -33,7 +34,7 @@ Row Push(int a, int b) {
   row.body_a = a;
   row.body_b = b;
   row.linear_a = Vector3d(0, 1, 0);
-  row.linear_b = -row.linear_a;
+  row.linear_b = -View(row.linear_a);
   row.lo = 0;
   return row;
 }
@@ -81,7 +82,7 @@ TEST(UnmovedBody, SharesAPairWithTheWorldAndKeepsItsSpeedToItself) {
   side.body_a = 0;
   side.body_b = 1;
   side.linear_a = Vector3d(1, 0, 0);
-  side.linear_b = -side.linear_a;
+  side.linear_b = -View(side.linear_a);
   side.angular_b = Vector3d(0, 0, 0.5);  // the platform turns: 1.5 m/s
   Row ground = Push(0, kWorld);
   const std::vector<Row> rows = {ground, side, Push(0, 1)};
@@ -110,14 +111,14 @@ TEST(ManyFactorisations, AreRefusedBeyondAThousandAndTakeNoTimeBelow) {
   std::vector<Row> rows;
   for (int i = 0; i < 6; ++i) {
     bodies[i].inv_mass = 1;
-    bodies[i].inv_inertia.setIdentity();
+    View(bodies[i].inv_inertia).setIdentity();
     bodies[i].velocity.linear = {1, 2.0 * i, 3};
     for (int k = 0; k < 3; ++k) {
       Row& row = rows.emplace_back();
       row.body_a = i;
       row.body_b = i - 1;
       row.linear_a = Vector3d::Unit(k);
-      row.linear_b = -row.linear_a;
+      row.linear_b = -View(row.linear_a);
     }
   }
   EXPECT_EQ(Solve(bodies, rows, {.k_sm = INT_MAX}).report.status, Status::kBadSettings);
@@ -152,14 +153,15 @@ TEST(ExtremeNumbers, AreSolvedOrRefusedAndNeverHalfWritten) {
         Row row = Push(0, kWorld);
         row.angular_a = Vector3d(lever, 0, 0);
         const Solved solved = Solve(bodies, {row});
-        const bool finite = std::isfinite(solved.x[0]) && solved.velocities[0].linear.allFinite() &&
-                            solved.velocities[0].angular.allFinite();
+        const bool finite = std::isfinite(solved.x[0]) &&
+                            View(solved.velocities[0].linear).allFinite() &&
+                            View(solved.velocities[0].angular).allFinite();
         EXPECT_TRUE(finite);
         if (!solved.report.ok()) {
           EXPECT_EQ(solved.report.status, Status::kOverflow);
           EXPECT_EQ(solved.report.stop, StopReason::kBrokeDown);
           EXPECT_EQ(solved.x[0], 0);
-          EXPECT_TRUE(solved.velocities[0].linear.isZero(0));
+          EXPECT_TRUE(View(solved.velocities[0].linear).isZero(0));
           continue;
         }
         ++solved_count;
@@ -176,7 +178,7 @@ TEST(ExtremeNumbers, TooLargeForAnImpulseInFloatsAreRefused) {
   // 1e30 kg at 1e20 m/s: fine in double precision, not in the floats of a point
   std::vector<Body> bodies = BallAndPlatform(-1e20);
   bodies[0].inv_mass = 1e-30;
-  bodies[0].inv_inertia.setZero();
+  View(bodies[0].inv_inertia).setZero();
   std::vector<Manifold> manifolds = {{.body_a = 0, .body_b = kWorld}};
   ContactPoint point{};
   point.normal[1] = 1;
@@ -189,7 +191,7 @@ TEST(ExtremeNumbers, TooLargeForAnImpulseInFloatsAreRefused) {
   const Report report = solver.Solve(problem, Impulses{.rows = {}, .points = x}, velocities);
   EXPECT_EQ(report.status, Status::kOverflow);
   EXPECT_EQ(x[0].normal, 3);
-  EXPECT_TRUE(velocities[0].linear.isZero(0));
+  EXPECT_TRUE(View(velocities[0].linear).isZero(0));
   EXPECT_TRUE(report.islands.empty());
 }
 

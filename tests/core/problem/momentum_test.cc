@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/problems.h"
 
 namespace cairn {
@@ -23,8 +24,8 @@ struct Momentum {
 Momentum MomentumOf(const Scene& scene, const std::vector<Velocity>& velocities) {
   Momentum sum;
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Vector3d p = velocities[i].linear / scene.bodies[i].inv_mass;
-    const Vector3d spin = scene.bodies[i].inv_inertia.inverse() * velocities[i].angular;
+    const Vector3d p = View(velocities[i].linear) / scene.bodies[i].inv_mass;
+    const Vector3d spin = View(scene.bodies[i].inv_inertia).inverse() * View(velocities[i].angular);
     const Vector3d orbit = scene.positions[i].cross(p);
     sum.linear += p;
     sum.angular += spin + orbit;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/dense.h"
 #include "tests/core/support/problems.h"
 
@@ -95,9 +96,9 @@ RC_GTEST_PROP(EveryProblem, GivesItsBitsAgain, ()) {
 Scene Heavier(Scene scene, double s) {
   for (Body& body : scene.bodies) {
     body.inv_mass /= s;
-    body.inv_inertia /= s;
-    body.impulse *= s;
-    body.angular_impulse *= s;
+    View(body.inv_inertia) /= s;
+    View(body.impulse) *= s;
+    View(body.angular_impulse) *= s;
   }
   for (Row& row : scene.rows) row.compliance /= s;
   return scene;

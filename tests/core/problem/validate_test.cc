@@ -11,6 +11,7 @@
 #include <limits>
 #include <string>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/problems.h"
 
 namespace cairn {
@@ -155,9 +156,9 @@ TEST(Validate, RefusesMassesThatNoBodyHas) {
   refuse("negative factor", [](Body* b) { b->linear_factor.z() = -1; });
   refuse("negative inertia", [](Body* b) { b->inv_inertia(0, 0) = -1; });
   // Eigenvalues 3 and -1.
-  refuse("indefinite", [](Body* b) { b->inv_inertia << 1, 2, 0, 2, 1, 0, 0, 0, 1; });
+  refuse("indefinite", [](Body* b) { View(b->inv_inertia) << 1, 2, 0, 2, 1, 0, 0, 0, 1; });
   refuse("indefinite, zero on the diagonal",
-         [](Body* b) { b->inv_inertia << 0, 1, 0, 1, 0, 0, 0, 0, 1; });
+         [](Body* b) { View(b->inv_inertia) << 0, 1, 0, 1, 0, 0, 0, 0, 1; });
   refuse("not symmetric", [](Body* b) { b->inv_inertia(0, 1) = 0.1; });
 }
 

@@ -125,7 +125,7 @@ TEST(Threads, DoEachPartOnceAndStayForTheSolver) {
   detail::Threads threads;
   threads.Follow(3, &executor);
   for (const int most : {1, 2, 3}) {
-    const detail::Shift shift(&threads, most);
+    const detail::AwakeHelpers awake(&threads, most);
     EXPECT_EQ(threads.several(), most > 1);
     std::vector<std::atomic<int>> done(1000);
     threads.For(1000, 7, [&](int first, int count) {

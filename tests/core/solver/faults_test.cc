@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/lcp/solver.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/manifold_problems.h"
@@ -70,7 +71,7 @@ std::vector<ManifoldScene> Frames() {
 /// the outputs as they were.
 bool Survives(Solver* solver, ManifoldScene scene, long call) {
   std::vector<Velocity> velocities(scene.bodies.size());
-  for (Velocity& velocity : velocities) velocity.linear.setConstant(7);
+  for (Velocity& velocity : velocities) View(velocity.linear).setConstant(7);
   const ManifoldScene before = scene;
   Report report;
   try {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/block_problems.h"
 #include "tests/core/support/manifold_problems.h"
 
@@ -190,7 +191,7 @@ TEST_F(NoAlloc, InAHardFrameAfterEasyOnesOfTheSameSize) {
   for (const int threads : {1, 2}) {
     const Scene hard = test::Together({test::Wall(18, 17), test::Tower(5), test::Tower(9)});
     Scene easy = hard;
-    for (Body& body : easy.bodies) body.impulse.setZero();
+    for (Body& body : easy.bodies) View(body.impulse).setZero();
     Settings settings = Coloured(100);
     settings.tolerance = 1e-3;
     settings.threads = threads;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/solver.h"
 #include "tests/core/support/problems.h"
 
@@ -146,9 +147,9 @@ struct Rod {
 
   /// Where the end is after a step [m].
   double Gap(const Velocity& moved) const {
-    const double angle = moved.angular.norm() * kStep;
-    const Eigen::AngleAxisd turn(angle, moved.angular.normalized());
-    return (moved.linear * kStep + turn * arm - arm).norm();
+    const double angle = View(moved.angular).norm() * kStep;
+    const Eigen::AngleAxisd turn(angle, View(moved.angular).normalized());
+    return (View(moved.linear) * kStep + turn * arm - arm).norm();
   }
 
   Report Solve(Settings settings, double time_step = kStep) {
@@ -206,7 +207,7 @@ TEST(Substeps, TakeThreeMotorsForNoPointThatIsHeld) {
     rod.rows[k].target = static_cast<float>(wanted[k]);
   }
   ASSERT_TRUE(rod.Solve(InParts(4)).ok());
-  const Vector3d end = rod.velocity.linear + rod.velocity.angular.cross(rod.arm);
+  const Vector3d end = View(rod.velocity.linear) + View(rod.velocity.angular).cross(rod.arm);
   EXPECT_LT((end - wanted).norm(), 1e-3);
 }
 

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/solver.h"
 #include "tests/core/support/problems.h"
 
@@ -33,9 +34,9 @@ double KineticEnergy(const Scene& scene, const std::vector<Velocity>& v) {
   double energy = 0;
   for (size_t i = 0; i < v.size(); ++i) {
     const Body& body = scene.bodies[i];
-    const Eigen::Vector3d momentum = v[i].linear / body.inv_mass;
-    energy += momentum.dot(v[i].linear) / 2;
-    energy += v[i].angular.dot(body.inv_inertia.inverse() * v[i].angular) / 2;
+    const Eigen::Vector3d momentum = View(v[i].linear) / body.inv_mass;
+    energy += momentum.dot(View(v[i].linear)) / 2;
+    energy += View(v[i].angular).dot(View(body.inv_inertia).inverse() * View(v[i].angular)) / 2;
   }
   return energy;
 }
@@ -99,8 +100,8 @@ TEST(Merit, OfBlocksIsThatOfDoubles) {
 double EnergyOfTargets(Scene scene, const std::vector<double>& x) {
   for (Body& body : scene.bodies) {
     body.velocity = {};
-    body.impulse.setZero();
-    body.angular_impulse.setZero();
+    View(body.impulse).setZero();
+    View(body.angular_impulse).setZero();
   }
   for (Row& row : scene.rows) {
     if (row.parent == kNoRow) continue;
@@ -249,12 +250,12 @@ TEST(Guards, UndoAStepThatThrowsABody) {
     ASSERT_TRUE(thrown.report.ok());
     EXPECT_TRUE(thrown.report.islands[0].guards.step);
     EXPECT_EQ(thrown.report.steps_restored, 1);
-    EXPECT_LT(thrown.v[0].angular.norm(), 1);
+    EXPECT_LT(View(thrown.v[0].angular).norm(), 1);
 
     const Solution turned = test::Solve(settings, TurnedByItsPins(0.5));
     EXPECT_FALSE(turned.report.islands[0].guards.step);
     EXPECT_EQ(turned.report.steps_accepted, 1);
-    EXPECT_NEAR(turned.v[0].angular.norm(), 0.2, 0.01);
+    EXPECT_NEAR(View(turned.v[0].angular).norm(), 0.2, 0.01);
   }
 }
 

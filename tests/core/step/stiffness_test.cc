@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "cairn/solver.h"
 #include "tests/core/support/problems.h"
 
@@ -42,8 +43,8 @@ TEST(Stiffness, RaisesALoadedLinkAsFarAsItsTensionAsks) {
   GeometricStiffness stiffness;
   SolveAndLearn(scene, &stiffness);
   const std::vector<Body> raised = Raised(scene, &stiffness);
-  const Eigen::Vector3d before = scene.bodies[0].inv_inertia.diagonal();
-  const Eigen::Vector3d after = raised[0].inv_inertia.diagonal();
+  const Eigen::Vector3d before = View(scene.bodies[0].inv_inertia).diagonal();
+  const Eigen::Vector3d after = View(raised[0].inv_inertia).diagonal();
   // it carries the load, the link below it, and half of itself on average
   const double tension = (load + 1 + 0.5) * test::kGravityStep / kStep;
   int across = 0;
@@ -151,7 +152,7 @@ TEST(Stiffness, TakesBodiesThatCannotMoveForWhatTheyAre) {
 TEST(Stiffness, LeavesIslandsAloneThatNothingHolds) {
   Scene scene = test::HangingChain(3, 1000);
   scene.rows.erase(scene.rows.begin(), scene.rows.begin() + 3);  // the pin to the world
-  for (Body& body : scene.bodies) body.impulse.setZero();
+  for (Body& body : scene.bodies) View(body.impulse).setZero();
   scene.bodies[0].impulse.z() = 1000;  // and yet it is under tension
   GeometricStiffness stiffness;
   const Solution s = SolveAndLearn(scene, &stiffness);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cairn/detail/eigen.h"
 #include "problem/islands.h"
 
 namespace cairn::test {
@@ -116,8 +117,8 @@ Scene Heap(const PileOptions& options, std::uint64_t seed) {
       continue;
     }
     Row normal = LinearRow(a, b, random.Direction());
-    normal.angular_a = random.Vector(0.5).cross(normal.linear_a);
-    if (b != kWorld) normal.angular_b = random.Vector(0.5).cross(normal.linear_b);
+    normal.angular_a = random.Vector(0.5).cross(View(normal.linear_a));
+    if (b != kWorld) normal.angular_b = random.Vector(0.5).cross(View(normal.linear_b));
     normal.target = random.Uniform(-0.1, 0.1);
     AddContact(&scene, normal, point, random.Uniform(0, 1));
   }
@@ -155,17 +156,17 @@ MovableBodies MovableOf(const Scene& scene) {
   return movable;
 }
 
-std::vector<RowLaw> LawsOf(const Scene& scene, double omega) {
-  std::vector<RowLaw> laws(scene.rows.size());
+std::vector<RowKind> KindsOf(const Scene& scene, double omega) {
+  std::vector<RowKind> laws(scene.rows.size());
   for (size_t i = 0; i < laws.size(); ++i) {
-    EXPECT_TRUE(ReadLaw(scene.problem(), static_cast<int>(i), 0, omega, &laws[i])) << i;
+    EXPECT_TRUE(ReadKind(scene.problem(), static_cast<int>(i), 0, omega, &laws[i])) << i;
   }
   return laws;
 }
 
 void MakePlan(const Scene& scene, double omega, Plan* plan) {
   Crew alone(1);
-  EXPECT_TRUE(plan->Make(scene.problem(), LawsOf(scene, omega), MovableOf(scene), &alone));
+  EXPECT_TRUE(plan->Make(scene.problem(), KindsOf(scene, omega), MovableOf(scene), &alone));
 }
 
 Settings Coloured(int sweeps) {
@@ -210,8 +211,8 @@ void Game::Take(const Frame& frame, const Solution& solution) {
   std::fill(impulses_.begin(), impulses_.end(), 0.0);
   for (size_t i = 0; i < frame.rows.size(); ++i) impulses_[frame.rows[i]] = solution.x[i];
   for (size_t i = 0; i < solution.v.size(); ++i) {
-    whole_.bodies[i].velocity.linear = 0.75 * solution.v[i].linear;
-    whole_.bodies[i].velocity.angular = 0.75 * solution.v[i].angular;
+    whole_.bodies[i].velocity.linear = 0.75 * View(solution.v[i].linear);
+    whole_.bodies[i].velocity.angular = 0.75 * View(solution.v[i].angular);
   }
 }
 

@@ -30,7 +30,7 @@ Scene WithEveryLaw(Scene scene, std::uint64_t seed);
 
 MovableBodies MovableOf(const Scene& scene);
 /// @pre the scene is valid
-std::vector<RowLaw> LawsOf(const Scene& scene, double omega);
+std::vector<RowKind> KindsOf(const Scene& scene, double omega);
 /// @pre the scene is valid
 void MakePlan(const Scene& scene, double omega, Plan* plan);
 

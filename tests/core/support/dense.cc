@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dense.h"
+#include "cairn/detail/eigen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,9 @@ Dense MakeDense(const Scene& scene) {
     for (int k = 0; k < 3; ++k) {
       dense.inverse_mass(6 * i + k, 6 * i + k) = body.inv_mass * body.linear_factor[k];
     }
-    dense.inverse_mass.block<3, 3>(6 * i + 3, 6 * i + 3) = body.inv_inertia;
-    start.segment<6>(6 * i) << body.velocity.linear, body.velocity.angular;
-    impulse.segment<6>(6 * i) << body.impulse, body.angular_impulse;
+    dense.inverse_mass.block<3, 3>(6 * i + 3, 6 * i + 3) = View(body.inv_inertia);
+    start.segment<6>(6 * i) << View(body.velocity.linear), View(body.velocity.angular);
+    impulse.segment<6>(6 * i) << View(body.impulse), View(body.angular_impulse);
   }
 
   dense.J = Eigen::MatrixXd::Zero(n, 6 * m);
@@ -26,12 +27,12 @@ Dense MakeDense(const Scene& scene) {
   for (int i = 0; i < n; ++i) {
     const Row& row = scene.rows[i];
     if (row.body_a >= 0) {
-      dense.J.row(i).segment<6>(6 * row.body_a) << row.linear_a.transpose(),
-          row.angular_a.transpose();
+      dense.J.row(i).segment<6>(6 * row.body_a) << View(row.linear_a).transpose(),
+          View(row.angular_a).transpose();
     }
     if (row.body_b >= 0) {
-      dense.J.row(i).segment<6>(6 * row.body_b) << row.linear_b.transpose(),
-          row.angular_b.transpose();
+      dense.J.row(i).segment<6>(6 * row.body_b) << View(row.linear_b).transpose(),
+          View(row.angular_b).transpose();
     }
     target[i] = row.target;
     compliance[i] = row.compliance;
@@ -47,7 +48,7 @@ Dense MakeDense(const Scene& scene) {
 Eigen::VectorXd Flatten(const std::vector<Velocity>& velocities) {
   Eigen::VectorXd flat(6 * velocities.size());
   for (size_t i = 0; i < velocities.size(); ++i) {
-    flat.segment<6>(6 * i) << velocities[i].linear, velocities[i].angular;
+    flat.segment<6>(6 * i) << View(velocities[i].linear), View(velocities[i].angular);
   }
   return flat;
 }
@@ -83,7 +84,7 @@ Residual DenseResidual(const Scene& scene, const Dense& dense, const Eigen::Vect
     const double d = dense.A(i, i);
     const double error = d * std::abs(x[i] - Project(scene, x, i, x[i] - w[i] / d));
     const Row& row = scene.rows[i];
-    const bool turns_only = row.linear_a.norm() + row.linear_b.norm() == 0;
+    const bool turns_only = View(row.linear_a).norm() + View(row.linear_b).norm() == 0;
     double& largest = turns_only ? residual.max_angular : residual.max;
     largest = std::max(largest, error);
     squares += error * error / d;

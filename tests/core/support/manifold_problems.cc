@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "manifold_problems.h"
+#include "cairn/detail/eigen.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -42,7 +43,7 @@ ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed) {
   for (int i = 0; i < bodies; ++i) scene.bodies.push_back(RandomBody(&random));
   // kinematic, and one that does not move evenly
   scene.bodies[0].inv_mass = 0;
-  scene.bodies[0].inv_inertia.setZero();
+  View(scene.bodies[0].inv_inertia).setZero();
   scene.bodies[1].linear_factor = {1, 0.5, 0};
   scene.law = {.bounce_speed = 0.2f, .host = {.spin_before_torques = seed % 2 == 0}};
   for (int i = 0; i < bodies && seed % 3 == 0; ++i) {

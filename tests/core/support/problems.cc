@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "problems.h"
+#include "cairn/detail/eigen.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -48,8 +49,8 @@ double Distance(const std::vector<double>& a, const std::vector<double>& b) {
 double Distance(const std::vector<Velocity>& a, const std::vector<Velocity>& b) {
   double largest = 0;
   for (size_t i = 0; i < a.size(); ++i) {
-    largest = std::max({largest, (a[i].linear - b[i].linear).cwiseAbs().maxCoeff(),
-                        (a[i].angular - b[i].angular).cwiseAbs().maxCoeff()});
+    largest = std::max({largest, (View(a[i].linear) - View(b[i].linear)).cwiseAbs().maxCoeff(),
+                        (View(a[i].angular) - View(b[i].angular)).cwiseAbs().maxCoeff()});
   }
   return largest;
 }
@@ -153,7 +154,7 @@ Row PointRow(const Scene& scene, int a, int b, const Vector3d& point, const Vect
 
 void AddContact(Scene* scene, Row normal, const Vector3d& point, double friction) {
   const int a = normal.body_a, b = normal.body_b;
-  const Vector3d n = a != kWorld ? normal.linear_a : Vector3d(-normal.linear_b);
+  const Vector3d n = a != kWorld ? Vector3d(normal.linear_a) : Vector3d(-View(normal.linear_b));
   const Vector3d first = n.unitOrthogonal(), second = n.cross(first);
   const int parent = static_cast<int>(scene->rows.size());
   normal.lo = 0;

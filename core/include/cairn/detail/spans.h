@@ -60,7 +60,7 @@ class SpanRecorder {
   void Clear();
   /// In order of their ends. Spans contain others or are apart.
   std::span<const Span> spans(int worker) const;
-  int workers() const { return static_cast<int>(lanes_.size()); }
+  int workers() const { return static_cast<int>(threads_.size()); }
   /// Spans of all workers that there was no room for.
   std::int64_t dropped() const;
 
@@ -69,12 +69,12 @@ class SpanRecorder {
   void Add(int worker, const Span& span);
 
  private:
-  struct alignas(64) Lane {
+  struct alignas(64) OfThread {
     std::vector<Span> spans;  ///< all that there is room for
     int size = 0;
     std::int64_t dropped = 0;
   };
-  std::vector<Lane> lanes_;
+  std::vector<OfThread> threads_;
 };
 
 /// Records a span from its construction to its destruction. Without a recorder it does nothing.

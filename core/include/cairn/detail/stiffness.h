@@ -2,7 +2,6 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,9 +31,9 @@ class GeometricStiffness {
  public:
   /// A body whose inertia was raised.
   struct Raised {
-    int body;                  ///< Its place.
-    Eigen::Matrix3d damping;   ///< Its spin changes by -damping * spin over this step.
-    Eigen::Matrix3d response;  ///< What torques change its spin by, relative to before.
+    int body;          ///< Its place.
+    Matrix3 damping;   ///< Its spin changes by -damping * spin over this step.
+    Matrix3 response;  ///< What torques change its spin by, relative to before.
   };
 
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
@@ -57,17 +56,17 @@ class GeometricStiffness {
   /// Of a body, by its id or place.
   struct Memory {
     std::uint64_t key = 0;
-    int place = 0;                                        ///< of the body in the last problem
-    Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();  ///< K [N m], world axes
-    Eigen::Vector3d held = Eigen::Vector3d::Zero();       ///< about principal axes [N m]
-    double held_ratio = 0;                                ///< the largest of these over moments
-    double inv_mass = 0;                                  ///< who it is
+    int place = 0;           ///< of the body in the last problem
+    Matrix3 stiffness = {};  ///< K [N m], world axes
+    Vector3 held = {};       ///< about principal axes [N m]
+    double held_ratio = 0;   ///< the largest of these over moments
+    double inv_mass = 0;     ///< who it is
     double inv_inertia = 0;  ///< sum of its inverse moments, not lowered
     bool seen = false;
   };
 
   void FindAnchored(const ContactProblem& problem, const Report& report);
-  void Add(int body, const Eigen::Vector3d& arm, const Eigen::Vector3d& impulse, double time_step);
+  void Add(int body, const Vector3& arm, const Vector3& impulse, double time_step);
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
   bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
@@ -86,13 +85,13 @@ class GeometricStiffness {
   std::vector<Memory*> known_;         ///< by body: what is remembered of it, while that is learnt
   std::vector<Memory> fresh_;          ///< those that are new
   std::vector<Raised> raised_;
-  std::vector<char> stepped_;          ///< by body: a subspace step was kept on its island
-  std::vector<char> anchored_;         ///< by island: something of it touches what does not move
-  std::span<const int> island_of_;     ///< of the report that is learnt from
-  std::vector<double> pull_;           ///< by body: whether joints may pull too hard
-  std::vector<int> pulled_;            ///< bodies with an entry in sums_
-  std::vector<int> place_;             ///< by body: in pulled_, -1 for none
-  std::vector<Eigen::Matrix3d> sums_;  ///< K of pulled_
+  std::vector<char> stepped_;       ///< by body: a subspace step was kept on its island
+  std::vector<char> anchored_;      ///< by island: something of it touches what does not move
+  std::span<const int> island_of_;  ///< of the report that is learnt from
+  std::vector<double> pull_;        ///< by body: whether joints may pull too hard
+  std::vector<int> pulled_;         ///< bodies with an entry in sums_
+  std::vector<int> place_;          ///< by body: in pulled_, -1 for none
+  std::vector<Matrix3> sums_;       ///< K of pulled_
 };
 
 }  // namespace cairn

@@ -73,17 +73,17 @@ class Threads {
 };
 
 /// Keeps helpers awake while it lives.
-class Shift {
+class AwakeHelpers {
  public:
   /// @p most threads; one calls nobody.
-  Shift(Threads* threads, int most) : threads_(most > 1 ? threads : nullptr) {
+  AwakeHelpers(Threads* threads, int most) : threads_(most > 1 ? threads : nullptr) {
     if (threads_ != nullptr) threads_->Call(most);
   }
-  ~Shift() {
+  ~AwakeHelpers() {
     if (threads_ != nullptr) threads_->Dismiss();
   }
-  Shift(const Shift&) = delete;
-  Shift& operator=(const Shift&) = delete;
+  AwakeHelpers(const AwakeHelpers&) = delete;
+  AwakeHelpers& operator=(const AwakeHelpers&) = delete;
 
  private:
   Threads* threads_;

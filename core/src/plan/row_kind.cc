@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plan/row_law.h"
+#include "plan/row_kind.h"
 
 namespace cairn {
 namespace {
@@ -14,11 +14,11 @@ simd::RowBound BoundOf(const Row& row) {
 }
 
 bool IsAngular(const Row& row) {
-  const auto zero = [](const Eigen::Vector3d& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; };
+  const auto zero = [](const Vector3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; };
   return zero(row.linear_a) && zero(row.linear_b);
 }
 
-/// All that HasValidLaw() does not look at.
+/// All that HasValidKind() does not look at.
 bool IsFinite(const Row& row, double impulse) {
   // zero times what is not finite is not zero
   double zero = 0 * row.target + 0 * row.compliance + 0 * impulse;
@@ -45,22 +45,23 @@ simd::RowShape ShapeOf(const Row& row, double omega) {
           .max_sweeps = row.host.max_sweeps};
 }
 
-bool HasValidLaw(const Row& row) {
+bool HasValidKind(const Row& row) {
   return row.compliance >= 0 && row.relaxation > 0 && row.relaxation < 2 && row.friction >= 0 &&
          row.friction < kInfinity && row.lo <= row.hi && row.lo < kInfinity &&
          row.hi > -kInfinity && (row.parent == kNoRow || (row.lo <= 0 && row.hi >= 0));
 }
 
-bool ReadLaw(const ContactProblem& problem, int index, double impulse, double omega, RowLaw* law) {
+bool ReadKind(const ContactProblem& problem, int index, double impulse, double omega,
+              RowKind* kind) {
   const Row& row = problem.rows[index];
-  law->a = row.body_a;
-  law->b = row.body_b;
-  law->parent = row.parent;
-  law->opposite = ActsOpposite(row);
-  law->shape = ShapeOf(row, omega);
+  kind->a = row.body_a;
+  kind->b = row.body_b;
+  kind->parent = row.parent;
+  kind->opposite = ActsOpposite(row);
+  kind->shape = ShapeOf(row, omega);
   const int bodies = static_cast<int>(problem.bodies.size());
   const auto known = [bodies](int body) { return body >= kWorld && body < bodies; };
-  return IsFinite(row, impulse) && HasValidLaw(row) && known(row.body_a) && known(row.body_b) &&
+  return IsFinite(row, impulse) && HasValidKind(row) && known(row.body_a) && known(row.body_b) &&
          (row.body_a != row.body_b || row.body_a == kWorld);
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Laws of rows in a subspace step, lane by lane: plain loops over the lanes of a line, which the
 // compiler turns into vectors of each target. Compiled once per target.
-#if defined(CAIRN_SIMD_PAIR_LAW_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef CAIRN_SIMD_PAIR_LAW_INL_H_
-#undef CAIRN_SIMD_PAIR_LAW_INL_H_
+#if defined(CAIRN_SIMD_PAIR_ACTIVE_SET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef CAIRN_SIMD_PAIR_ACTIVE_SET_INL_H_
+#undef CAIRN_SIMD_PAIR_ACTIVE_SET_INL_H_
 #else
-#define CAIRN_SIMD_PAIR_LAW_INL_H_
+#define CAIRN_SIMD_PAIR_ACTIVE_SET_INL_H_
 #endif
 
 #include <hwy/highway.h>
@@ -14,12 +14,12 @@
 #include <cmath>
 #include <limits>
 
-#include "simd/pairs/pair_law.h"
+#include "simd/pairs/pair_active_set.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {
 namespace HWY_NAMESPACE {
-namespace laws {
+namespace active_sets {
 
 /// line := what function(lane) gives. Through numbers of its own, which alias with nothing.
 template <class T, class LineT, class Function>
@@ -99,7 +99,7 @@ T AtBound(RowSide side, T x, T lo, T hi) {
 template <class T>
 class PredictedBounds {
  public:
-  explicit PredictedBounds(const PairLaw<T>& law) : law_(law) {}
+  explicit PredictedBounds(const PairActiveSet<T>& set) : set_(set) {}
 
   void Find(const RowView& row, BoundLines<T>* bounds) {
     if (row.shape.parent < 0) return FindBounds<T>(row, nullptr, bounds);
@@ -110,17 +110,17 @@ class PredictedBounds {
  private:
   void FindParent(int parent) {
     parent_ = parent;
-    const Line* lines = law_.lines + PairLines(law_.block.form);
-    for (int i = 0; i < parent; ++i) lines += RowLines(law_.block.form, law_.block.rows[i]);
+    const Line* lines = set_.lines + PairLines(set_.block.form);
+    for (int i = 0; i < parent; ++i) lines += RowLines(set_.block.form, set_.block.rows[i]);
     BoundLines<T> own;
-    FindBounds<T>(RowView(law_.block.form, law_.block.rows[parent], lines), nullptr, &own);
+    FindBounds<T>(RowView(set_.block.form, set_.block.rows[parent], lines), nullptr, &own);
     for (int l = 0; l < kLanes; ++l) {
-      parent_x_.lane[l] = AtBound(law_.sides[parent].lane[l], law_.x[parent].lane[l],
+      parent_x_.lane[l] = AtBound(set_.sides[parent].lane[l], set_.x[parent].lane[l],
                                   own.lo.lane[l], own.hi.lane[l]);
     }
   }
 
-  const PairLaw<T>& law_;
+  const PairActiveSet<T>& set_;
   int parent_ = -1;
   LineOf<T> parent_x_;
 };
@@ -143,28 +143,28 @@ HWY_INLINE void FindCompliances(const RowView& row, LineOf<T>* compliance) {
 }
 
 template <class T>
-void FindSlack(const PairLaw<T>& law) {
+void FindRelativeVelocities(const PairActiveSet<T>& set) {
   LineOf<T> compliance;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
-    LineOf<T>* const slack = &law.slack[i];
-    Fill<T>(slack, [&](int l) { return slack->lane[l] - static_cast<T>(row.target->lane[l]); });
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
+    LineOf<T>* const w = &set.w[i];
+    Fill<T>(w, [&](int l) { return w->lane[l] - static_cast<T>(row.target->lane[l]); });
     if (!row.shape.soft) return;
     FindCompliances<T>(row, &compliance);
-    Fill<T>(slack, [&](int l) { return slack->lane[l] + compliance.lane[l] * law.x[i].lane[l]; });
+    Fill<T>(w, [&](int l) { return w->lane[l] + compliance.lane[l] * set.x[i].lane[l]; });
   });
 }
 
 template <class T>
-void Predict(const PairLaw<T>& law) {
-  PredictedBounds<T> predicted(law);
+void Predict(const PairActiveSet<T>& set) {
+  PredictedBounds<T> predicted(set);
   BoundLines<T> bounds;
   LineOf<T> inverse;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     predicted.Find(row, &bounds);
     FindInverseDiagonals<T>(row, &inverse);
-    Fill<RowSide>(&law.sides[i], [&](int l) {
-      const T lo = bounds.lo.lane[l], hi = bounds.hi.lane[l], near = law.lanes.tolerance.lane[l];
-      const T natural = law.x[i].lane[l] - law.slack[i].lane[l] * inverse.lane[l];
+    Fill<RowSide>(&set.sides[i], [&](int l) {
+      const T lo = bounds.lo.lane[l], hi = bounds.hi.lane[l], near = set.lanes.tolerance.lane[l];
+      const T natural = set.x[i].lane[l] - set.w[i].lane[l] * inverse.lane[l];
       const RowSide up = natural < hi - near ? RowSide::kFree : RowSide::kHi;
       const RowSide inside = natural > lo + near ? up : RowSide::kLo;
       return hi - lo > 2 * near ? inside : RowSide::kLo;
@@ -173,98 +173,98 @@ void Predict(const PairLaw<T>& law) {
 }
 
 template <class T>
-void FindWeights(const PairLaw<T>& law) {
+void FindWeights(const PairActiveSet<T>& set) {
   LineOf<T> inverse, compliance;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     const bool joint = row.shape.bound == RowBound::kFree;
-    const LineOf<T>& eps = joint ? law.lanes.proximal_joints : law.lanes.proximal;
+    const LineOf<T>& eps = joint ? set.lanes.proximal_joints : set.lanes.proximal;
     FindInverseDiagonals<T>(row, &inverse);
     FindCompliances<T>(row, &compliance);
-    Fill<T>(&law.weights[i], [&](int l) {
+    Fill<T>(&set.weights[i], [&](int l) {
       const T weight =
-          law.lanes.taken.lane[l] / (compliance.lane[l] + eps.lane[l] / inverse.lane[l]);
-      return law.sides[i].lane[l] == RowSide::kFree ? weight : T{0};
+          set.lanes.taken.lane[l] / (compliance.lane[l] + eps.lane[l] / inverse.lane[l]);
+      return set.sides[i].lane[l] == RowSide::kFree ? weight : T{0};
     });
   });
 }
 
 template <class T>
-void Fix(const PairLaw<T>& law) {
+void Fix(const PairActiveSet<T>& set) {
   BoundLines<T> bounds;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     if (row.shape.bound == RowBound::kFree) return;
-    FindBounds<T>(row, row.shape.parent < 0 ? nullptr : law.x + row.shape.parent, &bounds);
-    Fill<T>(&law.x[i], [&](int l) {
-      const RowSide side = law.lanes.taken.lane[l] != 0 ? law.sides[i].lane[l] : RowSide::kFree;
-      return AtBound(side, law.x[i].lane[l], bounds.lo.lane[l], bounds.hi.lane[l]);
+    FindBounds<T>(row, row.shape.parent < 0 ? nullptr : set.x + row.shape.parent, &bounds);
+    Fill<T>(&set.x[i], [&](int l) {
+      const RowSide side = set.lanes.taken.lane[l] != 0 ? set.sides[i].lane[l] : RowSide::kFree;
+      return AtBound(side, set.x[i].lane[l], bounds.lo.lane[l], bounds.hi.lane[l]);
     });
   });
 }
 
 template <class T>
-std::uint32_t RemoveViolated(const PairLaw<T>& law) {
-  PredictedBounds<T> predicted(law);
+std::uint32_t RemoveViolated(const PairActiveSet<T>& set) {
+  PredictedBounds<T> predicted(set);
   BoundLines<T> bounds;
   SideLine before;
   std::uint32_t removed = 0;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     if (row.shape.bound == RowBound::kFree) return;
     predicted.Find(row, &bounds);
-    before = law.sides[i];
-    Fill<RowSide>(&law.sides[i], [&](int l) {
-      const T now = law.x[i].lane[l], near = law.lanes.tolerance.lane[l];
+    before = set.sides[i];
+    Fill<RowSide>(&set.sides[i], [&](int l) {
+      const T now = set.x[i].lane[l], near = set.lanes.tolerance.lane[l];
       // what is not a number leaves, too
       const RowSide side = now > bounds.hi.lane[l] + near ? RowSide::kHi : RowSide::kFree;
       const RowSide left = now >= bounds.lo.lane[l] - near ? side : RowSide::kLo;
-      const bool looked_at = before.lane[l] == RowSide::kFree && law.lanes.taken.lane[l] != 0;
+      const bool looked_at = before.lane[l] == RowSide::kFree && set.lanes.taken.lane[l] != 0;
       return looked_at ? left : before.lane[l];
     });
     for (int l = 0; l < kLanes; ++l) {
-      removed |= std::uint32_t{law.sides[i].lane[l] != before.lane[l]} << l;
+      removed |= std::uint32_t{set.sides[i].lane[l] != before.lane[l]} << l;
     }
   });
   return removed;
 }
 
 template <class T>
-void FindJointWeights(const PairLaw<T>& law) {
+void FindJointWeights(const PairActiveSet<T>& set) {
   LineOf<T> inverse;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     const bool condensed = row.shape.bound == RowBound::kFree && !row.shape.soft;
-    if (!condensed) return Fill<T>(&law.weights[i], [](int) { return T{0}; });
+    if (!condensed) return Fill<T>(&set.weights[i], [](int) { return T{0}; });
     FindInverseDiagonals<T>(row, &inverse);
-    Fill<T>(&law.weights[i], [&](int l) {
+    Fill<T>(&set.weights[i], [&](int l) {
       const T weight =
-          law.lanes.taken.lane[l] / (law.lanes.proximal_joints.lane[l] / inverse.lane[l]);
-      return law.lanes.taken.lane[l] != 0 ? weight : T{0};
+          set.lanes.taken.lane[l] / (set.lanes.proximal_joints.lane[l] / inverse.lane[l]);
+      return set.lanes.taken.lane[l] != 0 ? weight : T{0};
     });
   });
 }
 
 template <class T>
-void CopyWeighted(const PairLaw<T>& law) {
-  for (int i = 0; i < law.block.row_count; ++i) {
-    Fill<T>(&law.product[i],
-            [&](int l) { return law.weights[i].lane[l] != 0 ? law.x[i].lane[l] : T{0}; });
+void CopyWeighted(const PairActiveSet<T>& set) {
+  for (int i = 0; i < set.block.row_count; ++i) {
+    Fill<T>(&set.product[i],
+            [&](int l) { return set.weights[i].lane[l] != 0 ? set.x[i].lane[l] : T{0}; });
   }
 }
 
 template <class T>
-void ClearWeighted(const PairLaw<T>& law) {
-  for (int i = 0; i < law.block.row_count; ++i) {
-    Fill<T>(&law.x[i],
-            [&](int l) { return law.weights[i].lane[l] != 0 ? T{0} : law.x[i].lane[l]; });
+void ClearWeighted(const PairActiveSet<T>& set) {
+  for (int i = 0; i < set.block.row_count; ++i) {
+    Fill<T>(&set.x[i],
+            [&](int l) { return set.weights[i].lane[l] != 0 ? T{0} : set.x[i].lane[l]; });
   }
 }
 
 template <class T>
-LineOf<T> FindJointSpeeds(const PairLaw<T>& law) {
+LineOf<T> FindJointSpeeds(const PairActiveSet<T>& set) {
   LineOf<T> speeds = {}, inverse;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     if (row.shape.bound != RowBound::kFree) return;
     FindInverseDiagonals<T>(row, &inverse);
     for (int l = 0; l < kLanes; ++l) {
-      const T speed = std::abs(law.x[i].lane[l]) / inverse.lane[l];
+      const T speed = std::abs(set.x[i].lane[l]) / inverse.lane[l];
       speeds.lane[l] = std::max(speeds.lane[l], speed);
     }
   });
@@ -272,42 +272,41 @@ LineOf<T> FindJointSpeeds(const PairLaw<T>& law) {
 }
 
 template <class T>
-void Weigh(const PairLaw<T>& law) {
-  for (int i = 0; i < law.block.row_count; ++i) {
-    Fill<T>(&law.product[i],
-            [&](int l) { return -(law.weights[i].lane[l] * law.slack[i].lane[l]); });
+void Weigh(const PairActiveSet<T>& set) {
+  for (int i = 0; i < set.block.row_count; ++i) {
+    Fill<T>(&set.product[i], [&](int l) { return -(set.weights[i].lane[l] * set.w[i].lane[l]); });
   }
 }
 
 template <class T>
-void Advance(const PairLaw<T>& law) {
-  for (int i = 0; i < law.block.row_count; ++i) {
-    Fill<T>(&law.x[i], [&](int l) {
-      const T slack = law.slack[i].lane[l] + law.product[i].lane[l];
-      return law.x[i].lane[l] - law.weights[i].lane[l] * slack;
+void Advance(const PairActiveSet<T>& set) {
+  for (int i = 0; i < set.block.row_count; ++i) {
+    Fill<T>(&set.x[i], [&](int l) {
+      const T w = set.w[i].lane[l] + set.product[i].lane[l];
+      return set.x[i].lane[l] - set.weights[i].lane[l] * w;
     });
   }
 }
 
 template <class T>
-void Project(const PairLaw<T>& law) {
+void Project(const PairActiveSet<T>& set) {
   BoundLines<T> bounds;
-  ForRows(law.block, law.lines, [&](int i, const RowView& row) {
+  ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     if (row.shape.bound == RowBound::kFree) return;
-    FindBounds<T>(row, row.shape.parent < 0 ? nullptr : law.x + row.shape.parent, &bounds);
-    Fill<T>(&law.x[i], [&](int l) {
-      return std::min(std::max(law.x[i].lane[l], bounds.lo.lane[l]), bounds.hi.lane[l]);
+    FindBounds<T>(row, row.shape.parent < 0 ? nullptr : set.x + row.shape.parent, &bounds);
+    Fill<T>(&set.x[i], [&](int l) {
+      return std::min(std::max(set.x[i].lane[l], bounds.lo.lane[l]), bounds.hi.lane[l]);
     });
   });
 }
 
 template <class T>
-constexpr PairLawKernels<T> kKernels = {FindSlack<T>,     Predict<T>,          FindWeights<T>,
-                                        Fix<T>,           RemoveViolated<T>,   Weigh<T>,
-                                        Advance<T>,       FindJointWeights<T>, CopyWeighted<T>,
-                                        ClearWeighted<T>, FindJointSpeeds<T>,  Project<T>};
+constexpr ActiveSetKernels<T> kKernels = {
+    FindRelativeVelocities<T>, Predict<T>,       FindWeights<T>,     Fix<T>,
+    RemoveViolated<T>,         Weigh<T>,         Advance<T>,         FindJointWeights<T>,
+    CopyWeighted<T>,           ClearWeighted<T>, FindJointSpeeds<T>, Project<T>};
 
-}  // namespace laws
+}  // namespace active_sets
 }  // namespace HWY_NAMESPACE
 }  // namespace cairn::simd
 HWY_AFTER_NAMESPACE();

@@ -30,12 +30,12 @@ struct LaneSettings {
 
 /// One block in a step: its laws as kernels have them, and the step's own numbers, one line a row.
 template <class T>
-struct PairLaw {
+struct PairActiveSet {
   const PairBlock& block;
   const Line* lines;  ///< of the block, its pair lines first
   const LaneSettings<T>& lanes;
   LineOf<T>* x;        ///< impulses
-  LineOf<T>* slack;    ///< in: G u; then w = G u + E x - target
+  LineOf<T>* w;        ///< in: G u; then w = G u + E x - target
   LineOf<T>* weights;  ///< W = 1 / (E + eps d) on free rows, 0 elsewhere
   LineOf<T>* product;  ///< room for a product
   SideLine* sides;
@@ -43,12 +43,13 @@ struct PairLaw {
 
 /// What a subspace step does with the laws of a block, in T. Same bits on every target.
 template <class T>
-struct PairLawKernels {
-  using Kernel = void (*)(const PairLaw<T>& law);
+struct ActiveSetKernels {
+  using Kernel = void (*)(const PairActiveSet<T>& set);
 
   /// w from G u.
-  Kernel find_slack;
-  /// Predicts from the natural map where every row ends, see PredictActiveSet(). @pre find_slack
+  Kernel find_relative_velocities;
+  /// Predicts from the natural map where every row ends, see PredictActiveSet(). @pre
+  /// find_relative_velocities
   Kernel predict;
   /// Weights from sides; none in lanes that are not worked on. eps d is the proximal term: the step
   /// minimises the energy plus eps d (x - x_start)^2 / 2, because the free rows of a contact face
@@ -58,7 +59,7 @@ struct PairLawKernels {
   Kernel fix;
   /// Free rows whose impulse left its bounds stay at the bound they crossed, from now on. One bit
   /// for each lane that had one.
-  std::uint32_t (*remove_violated)(const PairLaw<T>& law);
+  std::uint32_t (*remove_violated)(const PairActiveSet<T>& set);
   /// product := -W w
   Kernel weigh;
   /// x := x - W (w + product)
@@ -70,17 +71,17 @@ struct PairLawKernels {
   /// x := 0 where there is a weight.
   Kernel clear_weighted;
   /// d |x| of rows without bounds, the largest of each lane.
-  LineOf<T> (*find_joint_speeds)(const PairLaw<T>& law);
+  LineOf<T> (*find_joint_speeds)(const PairActiveSet<T>& set);
   /// x inside its bounds.
   Kernel project;
 };
 
 /// @pre the CPU supports it
 template <class T>
-const PairLawKernels<T>& PairLawKernelsFor(Target target);
+const ActiveSetKernels<T>& ActiveSetKernelsFor(Target target);
 template <>
-const PairLawKernels<float>& PairLawKernelsFor(Target target);
+const ActiveSetKernels<float>& ActiveSetKernelsFor(Target target);
 template <>
-const PairLawKernels<double>& PairLawKernelsFor(Target target);
+const ActiveSetKernels<double>& ActiveSetKernelsFor(Target target);
 
 }  // namespace cairn::simd

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What the plan reads of a row.
-#include "plan/row_law.h"
+#include "plan/row_kind.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
+#include "cairn/detail/eigen.h"
 #include "tests/core/support/block_problems.h"
 
 namespace cairn {
@@ -37,27 +38,27 @@ TEST(ShapeOf, ReadsTheLawOfARow) {
   EXPECT_EQ(ShapeOf(row, 1), expected);
 }
 
-TEST(ReadLaw, TakesWhatThePlanNeeds) {
+TEST(ReadKind, TakesWhatThePlanNeeds) {
   test::Scene scene = test::Tower(2);
-  RowLaw law;
-  ASSERT_TRUE(ReadLaw(scene.problem(), 13, 0, 1, &law));
+  RowKind law;
+  ASSERT_TRUE(ReadKind(scene.problem(), 13, 0, 1, &law));
   EXPECT_EQ(law.a, 1);
   EXPECT_EQ(law.b, 0);
   EXPECT_EQ(law.parent, 12);
   EXPECT_TRUE(law.opposite);
   EXPECT_EQ(law.shape, ShapeOf(scene.rows[13], 1));
-  scene.rows[13].linear_a *= 2;
-  ASSERT_TRUE(ReadLaw(scene.problem(), 13, 0, 1, &law));
+  View(scene.rows[13].linear_a) *= 2;
+  ASSERT_TRUE(ReadKind(scene.problem(), 13, 0, 1, &law));
   EXPECT_FALSE(law.opposite);
 }
 
-TEST(ReadLaw, RefusesNumbersThatAreNotValid) {
+TEST(ReadKind, RefusesNumbersThatAreNotValid) {
   const test::Scene good = test::Tower(2);
   const auto valid = [&good](auto change) {
     test::Scene scene = good;
     change(&scene.rows[13]);
-    RowLaw law;
-    return ReadLaw(scene.problem(), 13, 0, 1, &law);
+    RowKind law;
+    return ReadKind(scene.problem(), 13, 0, 1, &law);
   };
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(valid([](Row*) {}));
@@ -71,8 +72,8 @@ TEST(ReadLaw, RefusesNumbersThatAreNotValid) {
     EXPECT_FALSE(valid([bad](Row* row) { row->target = -bad; }));
     EXPECT_FALSE(valid([bad](Row* row) { row->linear_a.y() = bad; }));
     EXPECT_FALSE(valid([bad](Row* row) { row->angular_b.z() = bad; }));
-    RowLaw law;
-    EXPECT_FALSE(ReadLaw(good.problem(), 13, bad, 1, &law)) << "its impulse";
+    RowKind law;
+    EXPECT_FALSE(ReadKind(good.problem(), 13, bad, 1, &law)) << "its impulse";
   }
   EXPECT_FALSE(valid([](Row* row) { row->relaxation = 2; }));
   EXPECT_FALSE(valid([](Row* row) { row->lo = kNan; }));

@@ -7,7 +7,7 @@
 namespace cairn {
 
 /// What the plan wants to know of a row: a fifth of its size, and no number that a kernel reads.
-struct RowLaw {
+struct RowKind {
   int a, b;              ///< bodies, as in the row
   int parent;            ///< as in the row
   bool opposite;         ///< see ActsOpposite()
@@ -16,16 +16,16 @@ struct RowLaw {
 
 /// False if a number is not valid; the parent can only be judged with all rows at hand.
 /// @p omega: Tuning::omega of kPsor, or 1.
-bool ReadLaw(const ContactProblem& problem, int row, double impulse, double omega, RowLaw* law);
+bool ReadKind(const ContactProblem& problem, int row, double impulse, double omega, RowKind* kind);
 
-/// The law of a row as a kernel sees it, without the parent.
+/// The kind of a row as a kernel sees it, without the parent.
 simd::RowShape ShapeOf(const Row& row, double omega);
 
-/// Whether it still has that law, the parent apart.
+/// Whether it still is of that kind, the parent apart.
 bool HasShape(const Row& row, double omega, const simd::RowShape& shape);
 
 /// Its bounds, compliance, friction and relaxation may be used.
-bool HasValidLaw(const Row& row);
+bool HasValidKind(const Row& row);
 
 /// Whether a row acts on its bodies with opposite forces.
 inline bool ActsOpposite(const Row& row) {
