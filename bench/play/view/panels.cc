@@ -325,8 +325,9 @@ void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Are
   ImGui::PopFont();
   if (!player.history().empty()) {
     const Sample& last = player.history().back();
-    ImGui::Text("residual %s m/s\ndeepest %s mm", Short(last.residual).c_str(),
-                Short(1000 * last.penetration).c_str());
+    const std::string deepest = fmt::format(", deepest {:.1f} mm", 1000 * last.penetration);
+    ImGui::Text("residual %.2g m/s%s", last.residual,
+                player.stage().recorded() ? "" : deepest.c_str());
     const std::string parts =
         fmt::format(", last {:.2f} + {:.2f} + {:.2f}", last.build_ms, last.solve_ms, last.write_ms);
     const bool split = player.cairn() && !player.stage().recorded() && width > 300;
