@@ -19,17 +19,19 @@ case "${1:-}" in
     ;;
 esac
 
-here="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-bash "$here/bench/build-tool.sh" build play import
-cmake --build "$here/build/release" -j "$(nproc)" --target cairn_play_window
-
-play=("$here/build/release/bin/cairn" play "$@")
+under=()
 if [[ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]]; then
   if [[ " $* " != *" --frames"* && " $* " != *" --commands"* ]]; then
     echo "There is no screen here: say how far with --frames N, and --screenshot FILE or --video DIR" >&2
     exit 2
   fi
-  play=(xvfb-run -a -s "-screen 0 1920x1200x24" "${play[@]}")
+  under=(xvfb-run -a -s "-screen 0 1920x1200x24")
 fi
+
+here="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+bash "$here/bench/build-tool.sh" build play import
+cmake --build "$here/build/release" -j "$(nproc)" --target cairn_play_window
+
+play=("$here/build/release/bin/cairn" play "$@")
 echo "== ${play[*]##*/}"
-exec "${play[@]}"
+exec "${under[@]}" "${play[@]}"
