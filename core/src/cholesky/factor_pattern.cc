@@ -25,10 +25,16 @@ double ScalarCost(int pivots, int rows) {
 
 /// Nodes that are eliminated together, as they are joined.
 struct Group {
-  int pivots, rows;  ///< rows with those of the pivots
-  double zeros;      ///< entries of its columns that joining has added
-  double cost = ScalarCost(pivots, rows);
+  int pivots = 0, rows = 0;  ///< rows with those of the pivots
+  double zeros = 0;          ///< entries of its columns that joining has added
+  double cost = 0;
 
+  Group() = default;
+  Group(int pivot_count, int row_count, double zero_count)
+      : pivots(pivot_count),
+        rows(row_count),
+        zeros(zero_count),
+        cost(ScalarCost(pivot_count, row_count)) {}
   double entries() const { return pivots * (rows - 0.5 * (pivots - 1)); }
 };
 
