@@ -128,19 +128,18 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   const int sweeps = own > 0 ? own : info.m_numIterations;
   most_sweeps_ = std::max(most_sweeps_, sweeps);
   const btRigidBody &a = joint->getRigidBodyA(), &b = joint->getRigidBodyB();
-  const ContactEnd party_a = bodies_->EndOf(a), party_b = bodies_->EndOf(b);
-  if (!party_a.reacts && !party_b.reacts) return result;
+  const ContactEnd end_a = bodies_->EndOf(a), end_b = bodies_->EndOf(b);
+  if (!end_a.reacts && !end_b.reacts) return result;
   const int max_sweeps = limits == SweepLimits::kBullet ? sweeps : std::numeric_limits<int>::max();
 
-  result.a_moves = party_a.number != kWorld;
-  result.b_moves = party_b.number != kWorld;
+  result.a_moves = end_a.number != kWorld;
+  result.b_moves = end_b.number != kWorld;
   result.rows = static_cast<int>(slots_.size());
   result.written_out = form == ContactForm::kRows || !IsCompact();
   const auto motion = [this](int number) {
     return number == kWorld ? nullptr : &bodies_->motion(number);
   };
-  const Ends ends{
-      a, b, motion(party_a.number), motion(party_b.number), party_a.number, party_b.number};
+  const Ends ends{a, b, motion(end_a.number), motion(end_b.number), end_a.number, end_b.number};
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
     const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .host = {.max_sweeps = max_sweeps}};

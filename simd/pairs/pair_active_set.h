@@ -28,7 +28,7 @@ struct LaneSettings {
   LineOf<T> proximal_joints;  ///< eps of rows without bounds
 };
 
-/// One block in a step: its laws as kernels have them, and the step's own numbers, one line a row.
+/// One block in a step: its rows as kernels have them, and the step's own numbers, one line a row.
 template <class T>
 struct PairActiveSet {
   const PairBlock& block;
@@ -41,7 +41,7 @@ struct PairActiveSet {
   SideLine* sides;
 };
 
-/// What a subspace step does with the laws of a block, in T. Same bits on every target.
+/// What a subspace step does with the rows of a block, in T. Same bits on every target.
 template <class T>
 struct ActiveSetKernels {
   using Kernel = void (*)(const PairActiveSet<T>& set);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings::substeps in worlds of Bullet.
+// Settings::substeps and Settings::relax in worlds of Bullet.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -175,6 +175,32 @@ TEST(SubstepsInBullet, KeepEveryScene) {
     EXPECT_TRUE(solver.report().ok()) << name;
     EXPECT_FALSE(solver.fell_back()) << name;
     EXPECT_LT(bench::LargestSpeed(world.world()), 40) << name;
+  }
+}
+
+// A box 20 cm deep in the floor, and nothing that keeps its push apart: Settings::relax does.
+TEST(RelaxationInBullet, TakesBackDepthAndLeavesNoSpeed) {
+  for (const bool relax : {false, true}) {
+    Settings settings;
+    settings.relax = relax;
+    bullet::ConstraintSolver solver(settings);
+    World world(&solver);
+    world.solver_info().m_splitImpulse = 0;
+    world.AddGround(20);
+    const btScalar half(0.5);
+    btRigidBody* const box =
+        world.AddBox(btVector3(half, half, half), {.mass = 4, .pose = At(0, btScalar(0.3), 0)});
+    double fastest = 0;
+    for (int k = 0; k < 120; ++k) {
+      world.Step();
+      fastest = std::max(fastest, static_cast<double>(box->getLinearVelocity().y()));
+    }
+    EXPECT_NEAR(HeightOf(box), 0.5, 0.02) << relax;
+    if (relax) {
+      EXPECT_LT(fastest, 0.05);
+    } else {
+      EXPECT_GT(fastest, 0.5) << "nothing to take back";
+    }
   }
 }
 

@@ -17,22 +17,6 @@ bool AreFinite(std::span<const IslandReport> islands) {
   });
 }
 
-/// Keeps helpers awake while it lives, unless somebody else does.
-class AwakeHelpers {
- public:
-  AwakeHelpers(Crew* crew, int threads) : crew_(crew->called() ? nullptr : crew) {
-    if (crew_ != nullptr) crew_->Call(threads);
-  }
-  ~AwakeHelpers() {
-    if (crew_ != nullptr) crew_->Dismiss();
-  }
-  AwakeHelpers(const AwakeHelpers&) = delete;
-  AwakeHelpers& operator=(const AwakeHelpers&) = delete;
-
- private:
-  Crew* crew_;
-};
-
 }  // namespace
 
 PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
@@ -43,7 +27,7 @@ PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& set
   const int threads = detail::ThreadsFor(static_cast<int>(AllRows(problem)), settings.threads);
   Crew* const crew = threads == 1 ? &alone_ : crew_;
   if (!crew->called()) crew->RecordTo(settings.tuning.spans);
-  const AwakeHelpers awake(crew, threads);
+  const detail::AwakeHelpers awake(crew, crew->called() ? 1 : threads);  // or somebody else does
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;
   cycle_.Run({problem, settings, &frame_, &memories_, meter, crew}, report);

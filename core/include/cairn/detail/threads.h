@@ -72,21 +72,22 @@ class Threads {
   std::unique_ptr<Crew> crew_;
 };
 
-/// Keeps helpers awake while it lives.
+/// Keeps helpers awake while it lives: those of Threads, or of a Crew.
+template <class Team>
 class AwakeHelpers {
  public:
   /// @p most threads; one calls nobody.
-  AwakeHelpers(Threads* threads, int most) : threads_(most > 1 ? threads : nullptr) {
-    if (threads_ != nullptr) threads_->Call(most);
+  AwakeHelpers(Team* team, int most) : team_(most > 1 ? team : nullptr) {
+    if (team_ != nullptr) team_->Call(most);
   }
   ~AwakeHelpers() {
-    if (threads_ != nullptr) threads_->Dismiss();
+    if (team_ != nullptr) team_->Dismiss();
   }
   AwakeHelpers(const AwakeHelpers&) = delete;
   AwakeHelpers& operator=(const AwakeHelpers&) = delete;
 
  private:
-  Threads* threads_;
+  Team* team_;
 };
 
 /// How many threads are worth calling for a problem of so many rows: what waits costs more than it
