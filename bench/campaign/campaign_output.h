@@ -9,9 +9,9 @@
 
 namespace cairn::cli {
 
-/// What all worlds came to, and each kind, solver by solver.
+/// What all worlds came to, and each kind, solver by solver. @p bits: whether those were looked at.
 std::string WorldTables(std::span<const bench::WorldResult> results,
-                        std::span<const bench::Variant> variants);
+                        std::span<const bench::Variant> variants, bool bits);
 
 /// A line for each world and solver that failed; none without failures.
 std::string FailedWorlds(std::span<const bench::WorldResult> results,
@@ -25,6 +25,12 @@ std::string WorldReport(const bench::WorldResult& result, const std::string& des
 /// Everything about every world, as JSON, with the context of the run.
 std::string WorldsToJson(const bench::CampaignOptions& options,
                          std::span<const bench::WorldResult> results, const std::string& command);
+
+/// Reads Bullet's runs from files of WorldsToJson().
+/// @throws Failure (kUsage) if one cannot be read, or is of other worlds than those of the options,
+/// or of another Bullet than this one.
+bench::BulletRuns ReadBulletRuns(std::span<const std::string> files,
+                                 const bench::CampaignOptions& options);
 
 /// Runs the worlds again with one thread on every SIMD target of this machine, and with two and
 /// three on the best; results that differ get a finding. Changes CAIRN_SIMD meanwhile.

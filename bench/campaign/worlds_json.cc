@@ -3,8 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "support/failure.h"
 #include "support/json_number.h"
 #include "support/machine/run_context.h"
 
@@ -60,7 +65,86 @@ Json ToJson(const bench::WorldResult& result, const bench::CampaignOptions& opti
   return {{"seed", result.seed}, {"kind", result.kind->name}, {"solvers", solvers}};
 }
 
+/// What is not finite is null in JSON.
+double NumberOr(const Json& json, double otherwise) {
+  return json.is_null() ? otherwise : json.get<double>();
+}
+
+bench::Trial TrialOf(const Json& json) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  bench::Trial trial;
+  trial.bodies = json.at("bodies");
+  trial.joints = json.at("joints");
+  trial.frames = json.at("frames");
+  trial.wild_frame = json.at("wild_frame");
+  trial.fastest = NumberOr(json.at("fastest_m_s"), kNan);
+  trial.late_fastest = NumberOr(json.at("late_fastest_m_s"), kNan);
+  trial.gap = NumberOr(json.at("gap_m"), kNan);
+  trial.penetration = NumberOr(json.at("penetration_m"), kNan);
+  trial.energy = NumberOr(json.at("energy_j"), kNan);
+  trial.asleep_at = NumberOr(json.at("asleep_s"), std::numeric_limits<double>::infinity());
+  trial.linear_drift = NumberOr(json.at("linear_drift"), kNan);
+  trial.angular_drift = NumberOr(json.at("angular_drift"), kNan);
+  trial.hash = std::stoull(json.at("hash").get<std::string>(), nullptr, 16);
+  trial.cpu_seconds = NumberOr(json.at("cpu_s"), kNan);
+  return trial;
+}
+
+std::vector<bench::Trial> BulletOf(const Json& world) {
+  std::vector<bench::Trial> trials;
+  for (const bench::Variant& variant : bench::BulletVariants()) {
+    for (const Json& solver : world.at("solvers")) {
+      if (solver.at("solver") == variant.name) trials.push_back(TrialOf(solver));
+    }
+  }
+  return trials;
+}
+
+/// Worlds of another length, or another Bullet, say nothing.
+void CheckContext(const Json& json, const bench::CampaignOptions& options,
+                  const std::string& path) {
+  const Json here = ToJson(DescribeContext(""))["build"]["bullet"],
+             there = json.at("context").at("build").at("bullet");
+  const auto expect = [&](bool holds, const std::string& what) {
+    if (!holds) throw Failure(kUsage, fmt::format("--beside '{}': {}", path, what));
+  };
+  expect(json.at("seconds") == options.trial.seconds,
+         fmt::format("its worlds are {} s long, these {} s; --seconds says how long",
+                     json.at("seconds").dump(), options.trial.seconds));
+  expect(json.at("scale") == options.trial.world.scale, "its worlds have another --scale");
+  expect(
+      there.at("version") == here.at("version") && there.at("precision") == here.at("precision"),
+      fmt::format("it is of Bullet {} {}, this is {} {}", there.at("version").get<std::string>(),
+                  there.at("precision").get<std::string>(), here.at("version").get<std::string>(),
+                  here.at("precision").get<std::string>()));
+}
+
 }  // namespace
+
+bench::BulletRuns ReadBulletRuns(std::span<const std::string> files,
+                                 const bench::CampaignOptions& options) {
+  bench::BulletRuns runs;
+  for (const std::string& path : files) {
+    std::ifstream stream(path);
+    if (!stream) {
+      throw Failure(kUsage,
+                    fmt::format("--beside '{}' cannot be read: {}", path, std::strerror(errno)));
+    }
+    try {
+      const Json json = Json::parse(stream);
+      CheckContext(json, options, path);
+      for (const Json& world : json.at("worlds")) {
+        std::vector<bench::Trial> trials = BulletOf(world);
+        if (trials.size() == bench::BulletVariants().size()) {
+          runs.insert_or_assign(world.at("seed").get<std::uint64_t>(), std::move(trials));
+        }
+      }
+    } catch (const Json::exception&) {
+      throw Failure(kUsage, fmt::format("--beside '{}' is no result of cairn worlds --json", path));
+    }
+  }
+  return runs;
+}
 
 std::string WorldsToJson(const bench::CampaignOptions& options,
                          std::span<const bench::WorldResult> results, const std::string& command) {

@@ -73,7 +73,8 @@ std::vector<std::string> BulletRow(std::span<const WorldResult> results, size_t 
   return row;
 }
 
-TextTable TotalTable(std::span<const WorldResult> results, std::span<const Variant> variants) {
+TextTable TotalTable(std::span<const WorldResult> results, std::span<const Variant> variants,
+                     bool bits) {
   TextTable table;
   table.columns = {{"solver", ""}};
   for (const std::string_view oracle : kShort) table.columns.push_back({std::string(oracle), ""});
@@ -85,6 +86,10 @@ TextTable TotalTable(std::span<const WorldResult> results, std::span<const Varia
   for (size_t i = 0; i < variants.size(); ++i) {
     std::vector<std::string> row = {variants[i].name};
     for (int oracle = 0; oracle < bench::kOracles; ++oracle) {
+      if (static_cast<Oracle>(oracle) == Oracle::kBits && !bits) {
+        row.push_back("-");
+        continue;
+      }
       row.push_back(Count(results, [&](const WorldResult& result) {
         return Failed(result, i, static_cast<Oracle>(oracle));
       }));
@@ -145,8 +150,9 @@ std::vector<std::string> ReportRow(const std::string& name, const Trial& trial) 
           fmt::format("{:.4g}", trial.energy),
           fmt::format("{}/{}", trial.steps_kept, trial.steps_undone),
           audit,
-          trial.audits == 0
-              ? "-"
+          trial.audits == 0 ? "-"
+          : trial.worst_frame < 0
+              ? "none above 0"
               : fmt::format("{:.3g} in {}", trial.worst_audit.merit, trial.worst_frame),
           std::isnan(trial.asleep_at)   ? "-"
           : std::isinf(trial.asleep_at) ? "never"
@@ -156,9 +162,11 @@ std::vector<std::string> ReportRow(const std::string& name, const Trial& trial) 
 
 }  // namespace
 
-std::string WorldTables(std::span<const WorldResult> results, std::span<const Variant> variants) {
+std::string WorldTables(std::span<const WorldResult> results, std::span<const Variant> variants,
+                        bool bits) {
   if (results.empty()) return "";
-  return TotalTable(results, variants).ToText() + "\n" + KindTable(results, variants).ToText();
+  return TotalTable(results, variants, bits).ToText() + "\n" +
+         KindTable(results, variants).ToText();
 }
 
 std::string FailedWorlds(std::span<const WorldResult> results, std::span<const Variant> variants) {

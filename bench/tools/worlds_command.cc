@@ -23,7 +23,7 @@ namespace {
 /// What was typed behind the options of `cairn worlds`.
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
-  std::string seconds = "5", scale = "1", jobs, json, shrink;
+  std::string seconds = "5", scale = "1", jobs, json, shrink, beside;
   bool list = false, report = false, audit = false, bits = false;
   OutputWords output;
 };
@@ -111,6 +111,7 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.jobs = words.jobs.empty()
                      ? cores
                      : ParseInt("--jobs", words.jobs, 1, 1024, "worlds run side by side");
+  options.bullet = ReadBulletRuns(Split(words.beside, ','), options);
   return options;
 }
 
@@ -144,7 +145,7 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
     const bench::WorldSeed seed{result.seed, options.trial.world.scale};
     fmt::print("{}\n", WorldReport(result, DescribeWorld(seed), options.variants));
   }
-  if (!words.report) fmt::print("{}\n", WorldTables(results, options.variants));
+  if (!words.report) fmt::print("{}\n", WorldTables(results, options.variants, words.bits));
   fmt::print("{}", FailedWorlds(results, options.variants));
   if (!words.output.quiet && !words.report) fmt::print("{}", kHowToRead);
   if (!words.json.empty()) WriteFile(words.json, WorldsToJson(options, results, command));
@@ -174,6 +175,9 @@ Command AddWorldsCommand(CLI::App* app) {
   add("--scale", &words->scale, "Smaller worlds: share of their size, at most 1; default 1", "X");
   add("--jobs", &words->jobs, "Worlds run side by side; default: as many as cores", "N");
   add("--json", &words->json, "Write everything about every world", "FILE");
+  add("--beside", &words->beside,
+      "Takes Bullet's runs from results of --json of the same worlds, where they have them",
+      "FILE,...");
   add("--shrink", &words->shrink,
       "Make failures smaller, and write them and their worst frame into a folder", "DIR");
   worlds->add_flag("--list", words->list, "Names the kinds of worlds");

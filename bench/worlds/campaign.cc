@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -52,13 +53,25 @@ WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed) {
   result.kind = &KindOf(seed.seed);
   TrialOptions trial = options.trial;
   trial.world = seed;
-  for (const Variant& variant : BulletVariants()) result.bullet.push_back(RunTrial(trial, variant));
+  if (const auto known = options.bullet.find(seed.seed); known != options.bullet.end()) {
+    result.bullet = known->second;
+  } else {
+    for (const Variant& variant : BulletVariants()) {
+      result.bullet.push_back(RunTrial(trial, variant));
+    }
+  }
   for (const Variant& variant : options.variants) {
     result.trials.push_back(RunTrial(trial, variant));
     result.findings.push_back(Judge(result.trials.back(), result.bullet, options.lines));
     const bool fast = std::any_of(result.findings.back().begin(), result.findings.back().end(),
                                   [](const Finding& finding) { return IsOfSpeed(finding.oracle); });
     if (fast && !result.converged) result.converged = RunTrial(trial, ConvergedBullet());
+  }
+  // files do not tell who may not sleep from who did not
+  for (Trial& trial_of_bullet : result.bullet) {
+    if (std::isnan(result.trials.front().asleep_at)) {
+      trial_of_bullet.asleep_at = result.trials.front().asleep_at;
+    }
   }
   return result;
 }

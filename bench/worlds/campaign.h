@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "worlds/oracles.h"
@@ -22,12 +23,16 @@ struct WorldResult {
   bool failed() const;
 };
 
+/// What became of worlds with Bullet, by seed, in the order of BulletVariants().
+using BulletRuns = std::unordered_map<std::uint64_t, std::vector<Trial>>;
+
 struct CampaignOptions {
   std::vector<std::uint64_t> seeds;
   std::vector<Variant> variants;
   TrialOptions trial;  ///< The seed is set for each world.
   Lines lines;
-  int jobs = 1;  ///< Threads, each with worlds of its own.
+  BulletRuns bullet;  ///< Known from before, of the same worlds; others are run.
+  int jobs = 1;       ///< Threads, each with worlds of its own.
   /// Called with the number of worlds that are done, by one thread at a time.
   std::function<void(size_t)> progress;
 };

@@ -49,6 +49,37 @@ class WorldsTest(CairnTest):
         self.assertEqual([world["seed"] for world in results[0]], list(range(8)))
         self.assertEqual(len(results[0][0]["solvers"]), 7)
 
+    def test_runs_of_bullet_are_taken_from_a_file_of_the_same_worlds(self):
+        def worlds(seeds, *arguments):
+            text = self.worlds("--seeds", seeds, "--seconds", "0.2", "--solver", "cairn", "--json",
+                               self.path("new.json"), *arguments)
+            with open(self.path("new.json"), encoding="utf-8") as file:
+                result = json.load(file)
+            for world in result["worlds"]:
+                world["solvers"] = [(s["solver"], s["hash"], s["failures"], s["asleep_s"])
+                                    for s in world["solvers"]]
+            return re.sub(r" +[0-9.]+$", "", text, flags=re.MULTILINE), result["worlds"]
+        plain = worlds("0:12")
+        self.worlds("--seeds", "0:8", "--seconds", "0.2", "--solver", "cairn-sweeps", "--json",
+                    self.path("old.json"))
+        self.assertEqual(worlds("0:12", "--beside", self.path("old.json")), plain)
+        with open(self.path("old.json"), encoding="utf-8") as file:
+            old = json.load(file)
+        old["worlds"][3]["solvers"][0]["hash"] = "000000000000002a"
+        with open(self.path("old.json"), "w", encoding="utf-8") as file:
+            json.dump(old, file)
+        self.assertIn("000000000000002a", str(worlds("0:12", "--beside", self.path("old.json"))))
+
+        def refusal(*arguments):
+            return self.refused(USAGE, "worlds", "--beside", self.path("old.json"), *arguments)
+        self.assertIn("0.2 s long", refusal("--seeds", "0:2", "--seconds", "0.3"))
+        self.assertIn("float64", refusal("--seeds", "0:2", "--seconds", "0.2", "--float64"))
+        with open(self.path("old.json"), "w", encoding="utf-8") as file:
+            file.write('{"worlds": []}')
+        self.assertIn("no result of cairn worlds", refusal("--seeds", "0:2"))
+        os.remove(self.path("old.json"))
+        self.assertIn("cannot be read", refusal("--seeds", "0:2"))
+
     def test_a_kind_leaves_only_its_worlds(self):
         self.worlds("--seeds", "0:90", "--kind", "tower,gears", "--seconds", "0.1", "--solver",
                     "cairn-sweeps", "--json", self.path("w.json"))
