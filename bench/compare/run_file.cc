@@ -125,7 +125,11 @@ void CheckVersion(const Json& json, const std::string& path) {
   const bool is_run = json.is_object() && json.contains("scenes");
   if (is_run && json.value("schema_version", Json()) == kRunSchema) return;
   if (!is_run) {
-    throw Failure(kUsage, fmt::format("'{}' is JSON, but no result of cairn run --json", path));
+    throw Failure(
+        kUsage,
+        fmt::format("'{}' is JSON, but no result of cairn run SCENE --json (nor is that of cairn "
+                    "run small)",
+                    path));
   }
   throw Failure(kUsage, fmt::format("'{}' has schema_version {}, and this cairn reads {}: write it "
                                     "again with this cairn",

@@ -84,7 +84,8 @@ class Chooser {
     std::vector<std::string> names;
     for (const Generator& generator : KnownGenerators()) names.push_back(generator.name);
     const bool is_name = std::find(names.begin(), names.end(), word) != names.end();
-    const bool is_path = word.find('/') != std::string::npos || word.starts_with('.');
+    const bool is_path =
+        word.find('/') != std::string::npos || word.starts_with('.') || word.ends_with(".cairn");
     std::error_code ignored;
     if (!is_name && fs::exists(word, ignored)) return AddPath(word);
     if (is_path) {

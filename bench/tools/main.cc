@@ -137,7 +137,8 @@ int Main(Arguments arguments) {
   app.set_version_flag("--version", CAIRN_VERSION);
   app.require_subcommand(1);
   app.footer(
-      "--float64, or --precision float64, with any command: with Bullet in double precision.\n"
+      "--float64, or --precision float64, with any command but play: with Bullet in double "
+      "precision.\n"
       "'cairn COMMAND --help' or 'cairn help COMMAND' says more, 'cairn list' what there is to "
       "run.\n"
       "First tries: cairn run tower --budget 2ms, cairn solve journal-bearing");

@@ -47,7 +47,8 @@ constexpr const char* kRunNotes =
   --budget B --iterations fit
                              the iterations of Bullet's solvers are adapted from frame to frame to
                              fit B (at least 1), which is what users do by hand
-  --iterations N             all make N iterations, Cairn without a clock: the same results each time
+  --iterations N             Bullet's solvers make N iterations; Cairn N sweeps, or up to 2N where it
+                             takes no step; no clock: the same results each time
 A solver may have iterations of its own: bullet-si@50, bullet-si@fit, cairn@10 (without a clock).
 
 Solvers that fail are shown as FAILED, with frame and reason.

@@ -94,8 +94,10 @@ Noise MeasureNoise(std::chrono::milliseconds duration) {
   const std::string_view kind = noise.threshold <= kQuiet   ? "quiet"
                                 : noise.threshold <= kNoisy ? "some noise"
                                                             : "noisy";
-  noise.verdict = fmt::format("{}: differences above {:.0f} % can be trusted", kind,
-                              std::max(kQuiet, noise.threshold));
+  const double line = std::max(kQuiet, noise.threshold);
+  noise.verdict = noise.threshold <= kNoisy
+                      ? fmt::format("{}: differences above {:.0f} % can be trusted", kind, line)
+                      : fmt::format("{}: differences below {:.0f} % cannot be trusted", kind, line);
   return noise;
 }
 
