@@ -38,22 +38,33 @@ std::optional<Target> FindTarget(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<Target> SupportedTargets() {
+namespace {
+
+bool Runs(const Entry& entry) {
   // HWY_TARGETS are the targets this compiler builds, SupportedTargets() those this CPU runs, and
   // what all code is compiled for runs in any case: Highway counts NEON without AES as none.
   // Asking the CPU takes microseconds, and tens of them in a virtual machine.
   static const std::int64_t usable =
       (hwy::SupportedTargets() | static_cast<std::int64_t>(HWY_STATIC_TARGET)) & HWY_TARGETS;
+  return entry.target == Target::kScalar || (usable & entry.highway) != 0;
+}
+
+std::string_view Asked() {
+  const char* const asked = std::getenv("CAIRN_SIMD");
+  return asked ? asked : "";
+}
+
+}  // namespace
+
+std::vector<Target> SupportedTargets() {
   std::vector<Target> targets;
   for (const Entry& entry : kEntries) {
-    if (entry.target == Target::kScalar || (usable & entry.highway) != 0) {
-      targets.push_back(entry.target);
-    }
+    if (Runs(entry)) targets.push_back(entry.target);
   }
   return targets;
 }
 
-Target BestTarget() { return SupportedTargets().back(); }
+Target BestTarget() { return std::find_if(kEntries.rbegin(), kEntries.rend(), Runs)->target; }
 
 TargetChoice ChooseTarget(std::string_view asked, const std::vector<Target>& supported) {
   using Reason = TargetChoice::Reason;
@@ -67,9 +78,11 @@ TargetChoice ChooseTarget(std::string_view asked, const std::vector<Target>& sup
   return {*found, Reason::kAsked, std::string(asked)};
 }
 
-TargetChoice ChooseTarget() {
-  const char* const asked = std::getenv("CAIRN_SIMD");
-  return ChooseTarget(asked ? asked : "", SupportedTargets());
+TargetChoice ChooseTarget() { return ChooseTarget(Asked(), SupportedTargets()); }
+
+Target ChosenTarget() {
+  const std::optional<Target> found = FindTarget(Asked());
+  return found && Runs(kEntries[static_cast<int>(*found)]) ? *found : BestTarget();
 }
 
 }  // namespace cairn::simd

@@ -46,5 +46,7 @@ TargetChoice ChooseTarget(std::string_view asked, const std::vector<Target>& sup
 
 /// The same for this CPU and the environment variable CAIRN_SIMD.
 TargetChoice ChooseTarget();
+/// Its target alone, without taking memory.
+Target ChosenTarget();
 
 }  // namespace cairn::simd

@@ -90,7 +90,7 @@ std::string_view Describe(NoStep reason) {
 }
 
 std::string Describe(const Report& report) {
-  if (report.bad_setting.name != nullptr) return Describe(report.bad_setting);
+  const BadSetting& bad = report.bad_setting;
   if (report.ok()) return std::string(Describe(report.stop));
   std::string where;
   const auto add = [&where](const char* what, int index) {
@@ -100,7 +100,7 @@ std::string Describe(const Report& report) {
   add("body ", report.bad_body);
   add("manifold ", report.bad_manifold);
   add("joint ", report.bad_joint);
-  return where.append(Describe(report.status));
+  return bad.name != nullptr ? where.append(Describe(bad)) : where.append(Describe(report.status));
 }
 
 }  // namespace cairn

@@ -7,8 +7,8 @@
 #include <exception>
 #include <limits>
 #include <utility>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cairn/detail/threads.h"
 #include "cycle/block_solver.h"
 #include "cycle/quiet_bodies.h"
@@ -106,8 +106,8 @@ class StopWatch {
 
 /// All but its memory.
 void ForgetReport(Report* report) {
-  std::vector<IslandReport> islands = std::move(report->islands);
-  std::vector<int> island_of = std::move(report->island_of);
+  Array<IslandReport> islands = std::move(report->islands);
+  Array<int> island_of = std::move(report->island_of);
   Replay replay = std::move(report->replay);
   islands.clear();
   island_of.clear();
@@ -190,7 +190,9 @@ bool IsResult(const Packer& packer, const Island& island, const IslandState& sta
 
 }  // namespace
 
-struct Solver::Impl {
+struct Solver::Impl : detail::Placed {
+  explicit Impl(detail::Heap::Owner owner) : heap(std::move(owner)) {}
+
   /// Throws away what an exception has left half done: a solver is new after one.
   class Attempt {
    public:
@@ -240,6 +242,7 @@ struct Solver::Impl {
                                             .most_step_ns = 40,
                                             .unseen_rows = 256};
 
+  detail::Heap::Owner heap;  ///< all of this lies in it, and itself
   Settings user_settings;
   Settings settings;  ///< those of the Solve() that runs
   static constexpr WorkPrices kBlockPrices = {.unseen_rows = 8192, .can_give_up_steps = true};
@@ -269,10 +272,10 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
                              Report* report) {
   // problem in
   const Packer packer(problem, settings);
-  const std::vector<Island> islands = FindIslands(problem);
-  std::vector<PackedIsland> packed;
+  const Array<Island> islands = FindIslands(problem);
+  Array<PackedIsland> packed;
   packed.reserve(islands.size());
-  std::vector<IslandCycle> cycles;
+  Array<IslandCycle> cycles;
   cycles.reserve(islands.size());
   for (const Island& island : islands) {
     packed.push_back(packer.Pack(island));
@@ -310,7 +313,10 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
   return true;
 }
 
-Solver::Solver(const Settings& settings) : impl_(std::make_unique<Impl>()) {
+Solver::Solver(const Settings& settings, Memory* memory) {
+  detail::Heap::Owner heap(memory);
+  const detail::MemoryScope scope(heap.get());
+  impl_ = std::make_unique<Impl>(std::move(heap));
   impl_->user_settings = settings;
 }
 Solver::~Solver() = default;
@@ -321,6 +327,9 @@ Settings& Solver::settings() { return impl_->user_settings; }
 const Settings& Solver::settings() const { return impl_->user_settings; }
 
 void Solver::Reset() { impl_->Forget(); }
+
+std::size_t Solver::bytes() const { return impl_->heap.get()->bytes(); }
+std::size_t Solver::most_bytes() const { return impl_->heap.get()->most_bytes(); }
 
 detail::Threads& Solver::threads() { return impl_->threads; }
 
@@ -334,6 +343,7 @@ Report Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
 void Solver::Solve(const ContactProblem& problem, const Impulses& impulses,
                    std::span<Velocity> velocities, Report* report) {
   const StopWatch watch;
+  const detail::MemoryScope scope(impl_->heap.get());
   impl_->Solve(problem, impulses, velocities, report);
   report->elapsed = watch.elapsed();
 }

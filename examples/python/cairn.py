@@ -56,7 +56,8 @@ Settings = struct("Settings", ("method", c_int), ("path", c_int), ("kGs", c_i32)
                   ("steps", c_bool), ("relax", c_bool), ("maxSweeps", c_i32), ("substeps", c_i32),
                   ("tolerance", c_double), ("quietSpeed", c_double),
                   ("budgetKind", c_int), ("budget", c_i64), ("minSweeps", c_i32),
-                  ("threads", c_i32), ("submit", pointer), ("context", pointer))
+                  ("threads", c_i32), ("submit", pointer), ("context", pointer),
+                  ("allocate", pointer), ("free", pointer), ("memoryContext", pointer))
 Report = struct("Report", ("status", c_int), *counts("badBody badManifold badJoint"),
                 ("stop", c_int), ("path", c_int), ("residualMax", c_double),
                 ("residualAngular", c_double),

@@ -2,6 +2,7 @@
 /* The interface of C as a C program sees it. Argument: a folder to write to. */
 #include <cairn/cairn.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -384,6 +385,65 @@ static void TakesErrorsBackWithoutVelocity(void) {
   }
 }
 
+/* What a program gave, and got back. */
+typedef struct Counts {
+  size_t bytes, most;
+  int blocks, left; /* left: allocations until one fails */
+} Counts;
+
+static void* Give(size_t bytes, size_t alignment, void* context) {
+  Counts* counts = context;
+  if (counts->left-- == 0) return NULL;
+  counts->bytes += bytes;
+  if (counts->bytes > counts->most) counts->most = counts->bytes;
+  ++counts->blocks;
+  return aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+}
+
+static void TakeBack(void* memory, size_t bytes, size_t alignment, void* context) {
+  Counts* counts = context;
+  CHECK((uintptr_t)memory % alignment == 0);
+  counts->bytes -= bytes;
+  --counts->blocks;
+  free(memory);
+}
+
+static void TakesMemoryOfItsHost(void) {
+  Counts counts = {0, 0, 0, -1};
+  CairnSettings settings = cairnDefaultSettings();
+  settings.memory.allocate = Give;
+  settings.memory.context = &counts;
+  CairnSolver* solver = NULL;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnNullPointer); /* no free() */
+  settings.memory.free = TakeBack;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+  CHECK(counts.bytes > 0 && cairnBytes(solver, NULL) == counts.bytes);
+  Scene scene;
+  MakeScene(&scene);
+  for (int i = 0; i < 3; ++i) {
+    CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+    size_t most = 0;
+    CHECK(cairnBytes(solver, &most) == counts.bytes && most == counts.most);
+  }
+  cairnDestroySolver(solver);
+  CHECK(counts.bytes == 0 && counts.blocks == 0);
+  size_t most = 1;
+  CHECK(cairnBytes(NULL, &most) == 0 && most == 0);
+
+  /* memory that ends */
+  counts.left = 0;
+  solver = NULL;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOutOfMemory && solver == NULL);
+  counts.left = -1;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+  counts.left = 2;
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOutOfMemory);
+  counts.left = -1;
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);
+  cairnDestroySolver(solver);
+  CHECK(counts.bytes == 0 && counts.blocks == 0);
+}
+
 static void EveryStatusHasASentence(void) {
   for (int status = cairnOk; status <= cairnFailed; ++status) {
     if (status == cairnOverflow + 1) status = cairnWrongVersion;
@@ -405,6 +465,7 @@ int main(int argc, char** argv) {
   SaysHowFastBodiesWereOnAverage();
   SaysForHowLongIslandsWereQuiet();
   TakesErrorsBackWithoutVelocity();
+  TakesMemoryOfItsHost();
   EveryStatusHasASentence();
   printf("%d failures\n", failures);
   return failures > 0;

@@ -11,17 +11,18 @@ C = "core/c/include/cairn/"
 GAME = [CORE + name + ".h" for name in ("budget", "contact_problem", "executor", "joint", "manifold",
                                         "report", "settings", "solver")]
 # The first three make problems of what an engine knows; whoever makes problems by himself needs none of them. The
-# last is three and nine numbers, which nobody reads who has vectors of his own.
-HELPERS = [CORE + name + ".h" for name in ("contacts", "joints", "strict", "vector")]
+# fourth is three and nine numbers, which nobody reads who has vectors of his own, the last for those who have memory
+# of their own.
+HELPERS = [CORE + name + ".h" for name in ("contacts", "joints", "strict", "vector", "memory")]
 # Bullet's multithreaded world, for those who have a Bullet that is built for it.
 MANY_THREADS = [ADAPTER + "bullet/" + name + ".h" for name in ("constraint_solver_pool", "task_scheduler")]
 # What -> its files, and how many lines they may have together, fewer than that.
 LIMITS = {
     "what a game meets": (GAME, 500),
     "core and adapter": ((CORE, ADAPTER), 900),
-    "helpers for engines, and vectors": (HELPERS, 320),
+    "helpers for engines, vectors, memory": (HELPERS, 355),
     "Bullet's multithreaded world": (MANY_THREADS, 150),
-    "interface of C": ((C,), 300),
+    "interface of C": ((C,), 315),
     "matrices": ((LCP,), 300),
 }
 

@@ -159,6 +159,13 @@ bool Judge::IsSteady() const {
   if (before_.law.bounce_speed > 0) return false;
   // friction that is held outside its bounds between bodies that nothing moves: blocks count it
   if (settings_.tuning.lifted_friction == detail::LiftedFriction::kHold) return false;
+  // likewise friction that only turns, and may be swept less often than what bounds it
+  const bool ends_early =
+      std::any_of(before_.rows.begin(), before_.rows.end(), [&](const Row& row) {
+        return row.parent != kNoRow && row.host.max_sweeps < settings_.max_sweeps &&
+               View(row.linear_a).isZero() && View(row.linear_b).isZero();
+      });
+  if (ends_early) return false;
   return std::all_of(before_.manifolds.begin(), before_.manifolds.end(),
                      [&](const Manifold& m) { return m.tangents == 0 && !m.twists; });
 }

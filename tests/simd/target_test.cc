@@ -63,8 +63,13 @@ TEST(TargetTest, WhatCannotBeGrantedIsSaidAndTheBestIsChosen) {
 TEST(TargetTest, TheEnvironmentVariableIsRead) {
   test::SetVariable("CAIRN_SIMD", "scalar");
   EXPECT_EQ(ChooseTarget().target, Target::kScalar);
+  EXPECT_EQ(ChosenTarget(), Target::kScalar);
+  test::SetVariable("CAIRN_SIMD", "avx-2");
+  EXPECT_EQ(ChosenTarget(), BestTarget());
   test::SetVariable("CAIRN_SIMD", "");
   EXPECT_EQ(ChooseTarget().target, BestTarget());
+  EXPECT_EQ(ChosenTarget(), BestTarget());
+  EXPECT_EQ(BestTarget(), SupportedTargets().back());
 }
 
 }  // namespace

@@ -5,20 +5,26 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "cairn/detail/memory.h"
 #include "cairn/detail/recorder.h"
 #include "cairn/strict.h"
 #include "convert.h"
 
 using namespace cairn;
 
-struct CairnSolver {
+struct CairnSolver : detail::Placed {
+  explicit CairnSolver(detail::Heap::Owner owner)
+      : heap(std::move(owner)), solver(Settings{}, heap.get()) {}
+
+  detail::Heap::Owner heap;  ///< all of this lies in it, and itself
   Solver solver;
   std::optional<c::CJobs> jobs;
   Recorder recorder{"cairn.h"};
   // memory of a step, used again
-  std::vector<Body> bodies;
-  std::vector<Velocity> velocities;
+  Array<Body> bodies;
+  Array<Velocity> velocities;
   Report report;
   CairnStatus last = cairnOk;  ///< what came of the last step; report may be of an earlier one
   std::optional<Recording> recorded;  ///< one that is solved, with its start
@@ -45,6 +51,12 @@ bool SameLayout(const CairnLayout& a, const CairnLayout& b) {
          a.twistImpulse == b.twistImpulse && a.manifold == b.manifold && a.jointRow == b.jointRow &&
          a.joint == b.joint && a.problem == b.problem && a.solution == b.solution &&
          a.settings == b.settings && a.report == b.report && a.island == b.island;
+}
+
+/// Memory of settings, or operator new.
+detail::Heap::Owner HeapOf(const CairnMemory& memory) {
+  if (memory.allocate == nullptr) return detail::Heap::Owner(static_cast<Memory*>(nullptr));
+  return detail::Heap::Owner(detail::MemorySource{memory.allocate, memory.free, memory.context});
 }
 
 CairnStatus Accept(const CairnSettings& settings, CairnSolver* solver) {
@@ -141,7 +153,8 @@ CairnSettings cairnDefaultSettings(void) {
           .budget = 0,
           .minSweeps = from.tuning.min_sweeps,
           .threads = from.threads,
-          .jobs = {}};
+          .jobs = {},
+          .memory = {}};
 }
 
 size_t cairnDescribeSettings(const CairnSettings* settings, char* text, size_t size) {
@@ -160,7 +173,11 @@ CairnStatus cairnCreateSolver(CairnLayout layout, const CairnSettings* settings,
   return c::Guarded([&] {
     if (!SameLayout(layout, cairnLayout())) return cairnWrongVersion;
     if (settings == nullptr || solver == nullptr) return cairnNullPointer;
-    auto made = std::make_unique<CairnSolver>();
+    const CairnMemory& memory = settings->memory;
+    if (memory.allocate != nullptr && memory.free == nullptr) return cairnNullPointer;
+    detail::Heap::Owner heap = HeapOf(memory);
+    const detail::MemoryScope scope(heap.get());
+    auto made = std::make_unique<CairnSolver>(std::move(heap));
     const CairnStatus status = Accept(*settings, made.get());
     if (status == cairnOk) *solver = made.release();
     return status;
@@ -168,6 +185,11 @@ CairnStatus cairnCreateSolver(CairnLayout layout, const CairnSettings* settings,
 }
 
 void cairnDestroySolver(CairnSolver* solver) { delete solver; }
+
+size_t cairnBytes(const CairnSolver* solver, size_t* most) {
+  if (most != nullptr) *most = solver == nullptr ? 0 : solver->heap.get()->most_bytes();
+  return solver == nullptr ? 0 : solver->heap.get()->bytes();
+}
 
 CairnStatus cairnSetSettings(CairnSolver* solver, const CairnSettings* settings) {
   return c::Guarded([&] {
@@ -217,7 +239,7 @@ size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
 
 CairnStatus cairnGetIsland(const CairnSolver* solver, int32_t index, CairnIsland* island) {
   if (solver == nullptr || island == nullptr) return cairnNullPointer;
-  const std::vector<IslandReport>& islands = solver->report.islands;
+  const Array<IslandReport>& islands = solver->report.islands;
   if (index < 0 || static_cast<size_t>(index) >= islands.size()) return cairnWrongSize;
   *island = c::ToIsland(islands[index]);
   return cairnOk;
@@ -234,7 +256,7 @@ size_t cairnValidateStrictly(const CairnProblem* problem, const CairnSolution* s
   std::string said;
   const CairnStatus status = c::Guarded([&] {
     if (problem == nullptr || solution == nullptr) return cairnNullPointer;
-    std::vector<Body> bodies;
+    Array<Body> bodies;
     c::View view;
     const CairnStatus looked = c::Look(*problem, *solution, &bodies, &view);
     if (looked != cairnOk) return looked;

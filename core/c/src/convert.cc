@@ -146,7 +146,7 @@ CairnIsland ToIsland(const IslandReport& from) {
           .residualAngular = from.residual.max_angular};
 }
 
-void CopyBodies(std::span<const CairnBody> from, std::vector<Body>* to) {
+void CopyBodies(std::span<const CairnBody> from, Array<Body>* to) {
   to->resize(from.size());
   const auto vector = [](const float* v) { return Vector3(v[0], v[1], v[2]); };
   for (size_t i = 0; i < from.size(); ++i) {
@@ -173,7 +173,7 @@ void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to) {
   }
 }
 
-CairnStatus Look(const CairnProblem& from, const CairnSolution& solution, std::vector<Body>* bodies,
+CairnStatus Look(const CairnProblem& from, const CairnSolution& solution, Array<Body>* bodies,
                  View* view) {
   const std::int32_t counts[] = {from.bodyCount,  from.manifoldCount, from.pointCount,
                                  from.twistCount, from.jointCount,    from.jointRowCount};

@@ -7,9 +7,9 @@
 #include <new>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "cairn/cairn.h"
+#include "cairn/detail/memory.h"
 #include "cairn/solver.h"
 
 namespace cairn::c {
@@ -31,7 +31,7 @@ Settings ToSettings(const CairnSettings& settings);
 CairnStatus ToStatus(Status status);
 CairnReport ToReport(const Report& report);
 CairnIsland ToIsland(const IslandReport& island);
-void CopyBodies(std::span<const CairnBody> from, std::vector<Body>* to);
+void CopyBodies(std::span<const CairnBody> from, Array<Body>* to);
 void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to);
 
 /// A problem whose counts and pointers fit one another, over the memory of the caller.
@@ -40,8 +40,8 @@ struct View {
   Impulses impulses;
 };
 /// cairnOk, or what is wrong with counts and pointers. @param bodies  those of the problem
-CairnStatus Look(const CairnProblem& problem, const CairnSolution& solution,
-                 std::vector<Body>* bodies, View* view);
+CairnStatus Look(const CairnProblem& problem, const CairnSolution& solution, Array<Body>* bodies,
+                 View* view);
 
 /// What snprintf does with "%s".
 std::size_t PutText(std::string_view text, char* to, std::size_t size);

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
@@ -47,6 +47,12 @@ struct TouchPoint {
   std::uint32_t feature = 0;  ///< Which point it is among those of its Touch.
 };
 
+/// How far bodies are from where they should be, and how much of that this step is to take back. A
+/// report knows nothing of it: its residuals are of velocities.
+struct PositionError {
+  double largest = 0, taken_back = 0;  ///< [m], or [rad].
+};
+
 /// Makes manifolds of what collision detection found, and starts points that were there in the last
 /// frame from what they exerted then. In each frame: Begin(), Add() for each Touch, Solve() with
 /// manifolds(), points() and impulses(). A frame with no more points than an earlier one allocates
@@ -67,7 +73,7 @@ struct TouchPoint {
 class Contacts {
  public:
   Contacts() = default;
-  explicit Contacts(const ContactOptions& options) : options_(options) {}
+  explicit Contacts(const ContactOptions& options, Memory* memory = nullptr);
 
   ContactOptions& options() { return options_; }
 
@@ -79,6 +85,7 @@ class Contacts {
   std::span<const Manifold> manifolds() const { return manifolds_; }
   std::span<const ContactPoint> points() const { return points_; }
   std::span<ContactImpulse> impulses() { return impulses_; }
+  PositionError deepest() const { return deepest_; }  ///< Of the points added since Begin() [m].
 
  private:
   struct Key {
@@ -97,11 +104,12 @@ class Contacts {
 
   ContactOptions options_;
   StepInput step_;
-  std::vector<Manifold> manifolds_;
-  std::vector<ContactPoint> points_;
-  std::vector<ContactImpulse> impulses_;
-  std::vector<Key> keys_;   ///< of points_
-  std::vector<Kept> kept_;  ///< of the last frame, by key
+  PositionError deepest_;
+  Array<Manifold> manifolds_;
+  Array<ContactPoint> points_;
+  Array<ContactImpulse> impulses_;
+  Array<Key> keys_;   ///< of points_
+  Array<Kept> kept_;  ///< of the last frame, by key
 };
 
 }  // namespace cairn

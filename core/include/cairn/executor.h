@@ -5,13 +5,8 @@
 namespace cairn {
 
 /// Where a Solver gets its threads from (Settings::executor). A game that has a job system of its
-/// own hands it in here, so that its threads and ours do not compete for the cores:
-///
-///   class JobSystem final : public cairn::Executor {
-///     void Submit(void (*work)(void*), void* what) override {
-///       jobs_.Push([work, what] { work(what); });
-///     }
-///   };
+/// own hands it in here, so that its threads and ours do not compete for the cores: Submit() puts
+/// [work, what] { work(what); } in its queue.
 ///
 /// A Solve() on n threads submits up to n - 1 tasks when it begins and never waits for one to
 /// start: the calling thread does whatever no other has taken. A task works until the Solve() ends

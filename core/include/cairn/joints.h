@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "cairn/contacts.h"
 
@@ -71,7 +70,7 @@ class Joints {
  public:
   Joints() = default;
   /// @param erp  share of an error that is taken back in a step, in [0, 1]
-  explicit Joints(double erp) : erp_(erp) {}
+  explicit Joints(double erp, Memory* memory = nullptr);
 
   /// Begins a frame. The bodies are looked at until the last Add().
   void Begin(const StepInput& step);
@@ -90,6 +89,10 @@ class Joints {
   std::span<const Joint> joints() const { return joints_; }
   std::span<const JointRow> rows() const { return rows_; }
   std::span<float> impulses() { return impulses_; }
+  /// Of the joints added since Begin(): how far anchors are apart, or beyond a limit [m], and how
+  /// far axes are turned away [rad].
+  PositionError worst_gap() const { return gap_; }
+  PositionError worst_angle() const { return angle_; }
   /// What the rows of a joint exerted [N s] or [N m s], after Solve().
   std::span<const float> impulses_of(int joint) const {
     return std::span(impulses_).subspan(joints_[joint].first_row, joints_[joint].rows);
@@ -106,17 +109,19 @@ class Joints {
   void AddAxis(const JointAxis& axis, const Way& way, double position);
   void AddCone(double cone, const JointSide& a, const JointSide& b);
   JointRow& AddRow(const Way& way);
-  /// In a step, by the last row.
+  /// A share of it in a step, by the last row.
   void TakeBack(double error, JointRow* row);
   int Close(std::uint64_t id);
 
   double erp_ = 0.2;
   StepInput step_;
-  std::vector<Joint> joints_;
-  std::vector<JointRow> rows_;
-  std::vector<float> impulses_, kept_impulses_;
-  std::vector<std::uint64_t> ids_;  ///< of joints_
-  std::vector<Kept> kept_;          ///< of the last frame, by id
+  PositionError gap_, angle_;
+  double gap_square_ = 0, angle_square_ = 0;  ///< of the joint that is added
+  Array<Joint> joints_;
+  Array<JointRow> rows_;
+  Array<float> impulses_, kept_impulses_;
+  Array<std::uint64_t> ids_;  ///< of joints_
+  Array<Kept> kept_;          ///< of the last frame, by id
 };
 
 /// The frame that these make, and where it starts. Both point into them: no Begin() or Add()

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cairn/report_details.h"
 
 namespace cairn {
@@ -45,7 +45,7 @@ std::string_view Describe(Status status);  ///< One sentence for people, without
 /// What was done, and how good the result is.
 struct [[nodiscard]] Report {
   Status status = Status::kOk;
-  BadSetting bad_setting;  ///< First setting, size (kWrongSize) or bounce speed refused.
+  BadSetting bad_setting;  ///< First setting, size, range or bounce speed refused.
   /// The first row, body, manifold or joint refused, -1 if what is wrong is none.
   int bad_row = -1, bad_body = -1, bad_manifold = -1, bad_joint = -1;
   Path path = Path::kAuto;  ///< What solved, kFast or kReference; kAuto: nothing did.
@@ -65,8 +65,8 @@ struct [[nodiscard]] Report {
   /// What subspace steps were predicted to take, with the factorisations that they made, and what
   /// they took, without the sweeps around them: with Budget::Time, else 0.
   std::chrono::nanoseconds step_predicted{0}, step_time{0};
-  std::vector<IslandReport> islands;
-  std::vector<int> island_of;  ///< By body: its place in islands, -1 for one without rows.
+  Array<IslandReport> islands;  ///< An Array is a std::vector.
+  Array<int> island_of;         ///< By body: its place in islands, -1 for one without rows.
 
   bool ok() const { return status == Status::kOk; }
 };

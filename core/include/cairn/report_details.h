@@ -6,7 +6,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
@@ -48,7 +49,7 @@ struct Residual {
 /// island on which a step or the result was guarded is left to sweeps for a while. Method::kPgsSm
 /// with LiftedFriction::kRelease only; plain methods are what their names say.
 struct Guards {
-  bool start = false;   ///< The start impulses were worse than none, and scaled down.
+  bool start = false;   ///< After three sweeps impulses were worse than none, and scaled down.
   bool step = false;    ///< A subspace step was undone: it put in energy, threw or flung bodies, or
                         ///< left impulses that floats cannot hold against each other.
   bool result = false;  ///< The impulses of the last sweep were worse than none, and scaled down.
@@ -93,7 +94,7 @@ struct Replay {
   /// Work units done when the time was up, the largest number if it never was.
   std::int64_t work = std::numeric_limits<std::int64_t>::max();
   /// Answers of the clock on the way, each 0 or 1: whether there was time for a step, say.
-  std::vector<std::uint8_t> fits;
+  Array<std::uint8_t> fits;
 
   friend bool operator==(const Replay&, const Replay&) = default;
 };

@@ -2,10 +2,12 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
+#include <cstddef>
 #include <memory>
 #include <span>
 
 #include "cairn/contact_problem.h"
+#include "cairn/memory.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 
@@ -17,7 +19,8 @@ namespace cairn {
 /// the problem.
 class Solver {
  public:
-  explicit Solver(const Settings& settings = {});
+  /// @param memory  where all of it lies that is its own; nullptr: operator new
+  explicit Solver(const Settings& settings = {}, Memory* memory = nullptr);
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
@@ -33,7 +36,7 @@ class Solver {
   [[nodiscard]] Report Solve(const ContactProblem& problem, const Impulses& impulses,
                              std::span<Velocity> velocities);
   /// The same into a report of an earlier call, whose memory is used again. After a problem on
-  /// Path::kFast one that is no larger is solved without allocating, subspace steps apart.
+  /// Path::kFast one that is no larger is solved without allocating, but for a step on a new graph.
   void Solve(const ContactProblem& problem, const Impulses& impulses,
              std::span<Velocity> velocities, Report* report);
   /// A problem without joints and manifolds.
@@ -49,6 +52,8 @@ class Solver {
   std::span<const Velocity> mean_velocities() const;  ///< Move bodies, with substeps or relax.
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();
+  std::size_t bytes() const;       ///< Of the memory that it holds now; docs/engine.md, Memory.
+  std::size_t most_bytes() const;  ///< Most that it ever held.
   detail::Threads& threads();  ///< For hosts that read and write their objects on the same ones.
 
  private:

@@ -6,8 +6,8 @@
 
 namespace cairn {
 
-struct BlockCholesky::Impl {
-  FrontCholesky<double> factor{simd::ChooseTarget().target};
+struct BlockCholesky::Impl : detail::Placed {
+  FrontCholesky<double> factor{simd::ChosenTarget()};
 };
 
 BlockCholesky::BlockCholesky() : impl_(std::make_unique<Impl>()) {}

@@ -11,13 +11,13 @@ namespace cairn {
 namespace {
 
 /// The nodes that are connected, ascending; one entry for each part of the graph.
-std::vector<std::vector<int>> Components(const Graph& graph) {
+Array<Array<int>> Components(const Graph& graph) {
   const int nodes = static_cast<int>(graph.begin.size()) - 1;
-  std::vector<char> seen(nodes, 0);
-  std::vector<std::vector<int>> components;
+  Array<char> seen(nodes, 0);
+  Array<Array<int>> components;
   for (int first = 0; first < nodes; ++first) {
     if (seen[first] != 0) continue;
-    std::vector<int>& component = components.emplace_back(1, first);
+    Array<int>& component = components.emplace_back(1, first);
     seen[first] = 1;
     for (size_t k = 0; k < component.size(); ++k) {
       for (int neighbour : graph.of(component[k])) {
@@ -30,14 +30,16 @@ std::vector<std::vector<int>> Components(const Graph& graph) {
 }
 
 /// Of one component; @p local: room for one entry a node.
-std::vector<int> OrderOf(const Graph& graph, std::span<const int> component,
-                         std::vector<int>* local) {
+Array<int> OrderOf(const Graph& graph, std::span<const int> component, Array<int>* local) {
   const int nodes = static_cast<int>(component.size());
   int entries = nodes;
   for (int k = 0; k < nodes; ++k) {
     (*local)[component[k]] = k;
     entries += static_cast<int>(graph.of(component[k]).size());
   }
+  Array<int> order(nodes);
+  // what Eigen takes for the moment is the one thing that no memory of the caller's can give
+  const detail::MemoryScope of_eigen(nullptr);
   Eigen::SparseMatrix<double> matrix(nodes, nodes);
   matrix.resizeNonZeros(entries);
   int entry = 0;
@@ -51,7 +53,8 @@ std::vector<int> OrderOf(const Graph& graph, std::span<const int> component,
   }
   matrix.outerIndexPtr()[nodes] = entry;
   std::fill_n(matrix.valuePtr(), entry, 1.0);
-  return MinimumDegreeOrder(matrix);
+  MinimumDegreeOrder(matrix, order);
+  return order;
 }
 
 }  // namespace
@@ -65,16 +68,16 @@ Graph MakeGraph(int nodes, std::span<const NodePair> pairs) {
   }
   std::partial_sum(graph.begin.begin(), graph.begin.end(), graph.begin.begin());
   graph.neighbours.resize(2 * pairs.size());
-  std::vector<int> end(graph.begin.begin(), graph.begin.end() - 1);
+  Array<int> end(graph.begin.begin(), graph.begin.end() - 1);
   // pairs ascend: first the smaller neighbours of each node, then the larger ones
   for (const auto& [i, j] : pairs) graph.neighbours[end[j]++] = i;
   for (const auto& [i, j] : pairs) graph.neighbours[end[i]++] = j;
   return graph;
 }
 
-std::vector<int> MinimumDegreeOrder(const Graph& graph) {
-  std::vector<int> order, local(graph.begin.size());
-  for (const std::vector<int>& component : Components(graph)) {
+Array<int> MinimumDegreeOrder(const Graph& graph) {
+  Array<int> order, local(graph.begin.size());
+  for (const Array<int>& component : Components(graph)) {
     if (component.size() <= 2) {
       order.insert(order.end(), component.begin(), component.end());
       continue;
@@ -84,8 +87,8 @@ std::vector<int> MinimumDegreeOrder(const Graph& graph) {
   return order;
 }
 
-std::vector<int> Inverse(std::span<const int> order) {
-  std::vector<int> position(order.size());
+Array<int> Inverse(std::span<const int> order) {
+  Array<int> position(order.size());
   for (size_t k = 0; k < order.size(); ++k) position[order[k]] = static_cast<int>(k);
   return position;
 }
@@ -94,7 +97,7 @@ std::vector<int> Inverse(std::span<const int> order) {
 Elimination Eliminate(const Graph& graph, std::span<const int> order,
                       std::span<const int> position) {
   const int nodes = static_cast<int>(order.size());
-  std::vector<int> parent(nodes, -1), counts(nodes, 1), reached(nodes, -1);
+  Array<int> parent(nodes, -1), counts(nodes, 1), reached(nodes, -1);
   for (int k = 0; k < nodes; ++k) {
     for (int neighbour : graph.of(order[k])) {
       for (int i = position[neighbour]; i < k && reached[i] != k; i = parent[i]) {
@@ -115,14 +118,15 @@ Children::Children(std::span<const int> parent) : first(parent.size(), -1), next
 
 void SortByMemory(const Elimination& tree, Children* children) {
   const int nodes = static_cast<int>(tree.parent.size());
-  std::vector<double> left(nodes), most(nodes);
-  std::vector<int> sorted;
+  Array<double> left(nodes), most(nodes);
+  Array<int> sorted;
   for (int i = 0; i < nodes; ++i) {
     left[i] = static_cast<double>(tree.counts[i] - 1) * (tree.counts[i] - 1);
     sorted.clear();
     for (int c = children->first[i]; c >= 0; c = children->next[c]) sorted.push_back(c);
     if (sorted.size() > 1) {
-      std::ranges::stable_sort(sorted, {}, [&](int c) { return left[c] - most[c]; });
+      // those with the same number stay in order
+      std::ranges::sort(sorted, {}, [&](int c) { return std::pair(left[c] - most[c], c); });
       int* link = &children->first[i];
       for (int c : sorted) {
         *link = c;
@@ -139,8 +143,8 @@ void SortByMemory(const Elimination& tree, Children* children) {
   }
 }
 
-std::vector<int> Postorder(std::span<const int> parent, Children children) {
-  std::vector<int> order, path;
+Array<int> Postorder(std::span<const int> parent, Children children) {
+  Array<int> order, path;
   order.reserve(parent.size());
   for (int root = 0; root < static_cast<int>(parent.size()); ++root) {
     if (parent[root] < 0) path.assign(1, root);

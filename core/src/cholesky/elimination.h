@@ -3,7 +3,8 @@
 
 #include <span>
 #include <utility>
-#include <vector>
+
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
@@ -12,7 +13,7 @@ using NodePair = std::pair<int, int>;
 
 /// Neighbours of every node: what a sparse matrix without numbers is.
 struct Graph {
-  std::vector<int> begin, neighbours;
+  Array<int> begin, neighbours;
 
   std::span<const int> of(int node) const {
     return std::span(neighbours).subspan(begin[node], begin[node + 1] - begin[node]);
@@ -24,15 +25,15 @@ Graph MakeGraph(int nodes, std::span<const NodePair> pairs);
 
 /// Minimum degree, of each component as if it were alone: what is connected to nothing else gets
 /// the same bits whatever is beside it. Neighbours ascend.
-std::vector<int> MinimumDegreeOrder(const Graph& graph);
+Array<int> MinimumDegreeOrder(const Graph& graph);
 
 /// Where each entry of a permutation is.
-std::vector<int> Inverse(std::span<const int> order);
+Array<int> Inverse(std::span<const int> order);
 
 /// By the order of elimination: the first node that each one brings fill to, or -1, and the entries
 /// of its column of the factor, with the diagonal.
 struct Elimination {
-  std::vector<int> parent, counts;
+  Array<int> parent, counts;
 };
 
 Elimination Eliminate(const Graph& graph, std::span<const int> order,
@@ -42,7 +43,7 @@ Elimination Eliminate(const Graph& graph, std::span<const int> order,
 struct Children {
   explicit Children(std::span<const int> parent);
 
-  std::vector<int> first, next;
+  Array<int> first, next;
 };
 
 /// Of the children of one node those come first that need the most memory beyond what they leave
@@ -54,6 +55,6 @@ void SortByMemory(const Elimination& tree, Children* children);
 
 /// Children before their parent, those of one parent next to each other with all that is below
 /// them.
-std::vector<int> Postorder(std::span<const int> parent, Children children);
+Array<int> Postorder(std::span<const int> parent, Children children);
 
 }  // namespace cairn

@@ -55,13 +55,12 @@ bool WorthJoining(const Group& child, const Group& group, const Group& both, int
 }
 
 /// The group of each node, by the last of its nodes.
-std::vector<int> JoinNodes(std::span<const int> parent, std::span<const int> counts,
-                           int node_size) {
+Array<int> JoinNodes(std::span<const int> parent, std::span<const int> counts, int node_size) {
   const int nodes = static_cast<int>(parent.size());
-  std::vector<Group> groups(nodes);
-  std::vector<int> joined_to(nodes);
+  Array<Group> groups(nodes);
+  Array<int> joined_to(nodes);
   const Children children(parent);
-  std::vector<std::pair<double, int>> candidates;
+  Array<std::pair<double, int>> candidates;
   for (int i = 0; i < nodes; ++i) {
     groups[i] = {1, counts[i], 0};
     joined_to[i] = i;
@@ -96,8 +95,7 @@ class FactorPattern::Builder {
       : pattern_(*pattern), graph_(MakeGraph(nodes, pairs)) {}
 
   void Build(std::span<const int> order) {
-    OrderNodes(order.empty() ? MinimumDegreeOrder(graph_)
-                             : std::vector<int>(order.begin(), order.end()));
+    OrderNodes(order.empty() ? MinimumDegreeOrder(graph_) : Array<int>(order.begin(), order.end()));
     CountEntries();
     MakeFronts();
     FindRows();
@@ -110,7 +108,7 @@ class FactorPattern::Builder {
     const Elimination elimination = Eliminate(graph_, chosen, Inverse(chosen));
     Children children(elimination.parent);
     if (pattern_.node_size_ == 1) SortByMemory(elimination, &children);
-    const std::vector<int> order = Postorder(elimination.parent, std::move(children));
+    const Array<int> order = Postorder(elimination.parent, std::move(children));
     Reorder(chosen, elimination.parent, order);
     counts_.resize(order.size());
     for (size_t k = 0; k < order.size(); ++k) counts_[k] = elimination.counts[order[k]];
@@ -118,7 +116,7 @@ class FactorPattern::Builder {
 
   void Reorder(std::span<const int> before, std::span<const int> parent,
                std::span<const int> order) {
-    const std::vector<int> place = Inverse(order);
+    const Array<int> place = Inverse(order);
     order_.resize(order.size());
     parent_.resize(order.size());
     for (size_t k = 0; k < order.size(); ++k) {
@@ -143,8 +141,8 @@ class FactorPattern::Builder {
   /// group as they were.
   void MakeFronts() {
     const int nodes = static_cast<int>(order_.size());
-    const std::vector<int> group = JoinNodes(parent_, counts_, pattern_.node_size_);
-    std::vector<int> front_of_group(nodes, -1);
+    const Array<int> group = JoinNodes(parent_, counts_, pattern_.node_size_);
+    Array<int> front_of_group(nodes, -1);
     pattern_.fronts_.clear();
     for (int i = 0; i < nodes; ++i) {
       if (group[i] != i) continue;
@@ -157,7 +155,7 @@ class FactorPattern::Builder {
       front.first = first;
       first += front.pivots;
     }
-    std::vector<int> next, order(nodes);
+    Array<int> next, order(nodes);
     for (const Front& front : pattern_.fronts_) next.push_back(front.first);
     pattern_.front_of_.resize(nodes);
     for (int i = 0; i < nodes; ++i) {
@@ -165,16 +163,16 @@ class FactorPattern::Builder {
       order[next[front]] = i;
       pattern_.front_of_[next[front]++] = front;
     }
-    Reorder(std::vector<int>(order_), std::vector<int>(parent_), order);
+    Reorder(Array<int>(order_), Array<int>(parent_), order);
   }
 
   /// What pivots and children have below the pivots.
   void FindRows() {
-    std::vector<int> seen(order_.size(), -1);
-    std::vector<int>& rows = pattern_.rows_;
+    Array<int> seen(order_.size(), -1);
+    Array<int>& rows = pattern_.rows_;
     rows.clear();
     const int fronts = static_cast<int>(pattern_.fronts_.size());
-    std::vector<int> first_child(fronts, -1), next_sibling(fronts, -1);
+    Array<int> first_child(fronts, -1), next_sibling(fronts, -1);
     for (int f = 0; f < fronts; ++f) {
       Front& front = pattern_.fronts_[f];
       const int begin = static_cast<int>(rows.size()), end = front.first + front.pivots;
@@ -200,7 +198,7 @@ class FactorPattern::Builder {
   }
 
   void FindChildren() {
-    std::vector<Front>& fronts = pattern_.fronts_;
+    Array<Front>& fronts = pattern_.fronts_;
     for (Front& front : fronts) front.children_begin = front.children_end = 0;
     for (const Front& front : fronts) {
       if (front.parent >= 0) ++fronts[front.parent].children_end;
@@ -220,7 +218,7 @@ class FactorPattern::Builder {
 
   FactorPattern& pattern_;
   Graph graph_;
-  std::vector<int> order_, parent_, counts_;  ///< by position
+  Array<int> order_, parent_, counts_;  ///< by position
 };
 
 void FactorPattern::Analyse(int nodes, int node_size, std::span<const NodePair> pairs,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cholesky/elimination.h"
 
 namespace cairn {
@@ -64,9 +64,9 @@ class FactorPattern {
   class Builder;
 
   int node_size_ = 1;
-  std::vector<int> position_, front_of_;
-  std::vector<Front> fronts_;
-  std::vector<int> rows_, children_;
+  Array<int> position_, front_of_;
+  Array<Front> fronts_;
+  Array<int> rows_, children_;
   double flops_ = 0, nonzeros_ = 0;
 };
 

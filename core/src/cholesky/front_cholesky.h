@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cholesky/factor_pattern.h"
 #include "cholesky/line_allocator.h"
 #include "runtime/crew.h"
@@ -119,14 +119,14 @@ class FrontCholesky {
   const simd::FrontKernels<T>& kernels_;
   FactorPattern pattern_;
 
-  std::vector<Block> blocks_;  ///< by front, as their numbers are in values_
-  std::vector<int> block_of_;  ///< of nodes, then of pairs
-  std::vector<Place> places_;  ///< one per front
-  std::vector<simd::RowRun> runs_;
-  std::vector<int> subtree_of_;      ///< of each front; -1 above all
-  std::vector<int> subtree_fronts_;  ///< by subtree
-  std::vector<int> subtree_begin_;   ///< in subtree_fronts_, and its end
-  std::vector<Stage> stages_;
+  Array<Block> blocks_;  ///< by front, as their numbers are in values_
+  Array<int> block_of_;  ///< of nodes, then of pairs
+  Array<Place> places_;  ///< one per front
+  Array<simd::RowRun> runs_;
+  Array<int> subtree_of_;      ///< of each front; -1 above all
+  Array<int> subtree_fronts_;  ///< by subtree
+  Array<int> subtree_begin_;   ///< in subtree_fronts_, and its end
+  Array<Stage> stages_;
 
   Numbers values_, panels_, updates_, floors_, ordered_, local_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where the numbers of FrontCholesky lie, and how its work is divided.
+#include "cairn/detail/memory.h"
 #include "cholesky/front_cholesky.h"
 
 #include <algorithm>
@@ -67,7 +68,7 @@ class FrontCholesky<T>::Planner {
   struct Hole {
     std::size_t begin, size;
   };
-  std::vector<Hole> holes_;  ///< ascending, never next to each other
+  Array<Hole> holes_;  ///< ascending, never next to each other
   std::size_t end_;
 };
 
@@ -101,7 +102,7 @@ void FrontCholesky<T>::PlaceBlocks(std::span<const NodePair> pairs) {
   // a node is a pair with itself
   const int count = nodes + static_cast<int>(pairs.size());
   const auto pair_at = [&](int k) { return k < nodes ? NodePair(k, k) : pairs[k - nodes]; };
-  std::vector<int> next(places_.size() + 1, 0), front_of(count), order(count);
+  Array<int> next(places_.size() + 1, 0), front_of(count), order(count);
   for (int k = 0; k < count; ++k) {
     const auto [first, second] = pair_at(k);
     front_of[k] = pattern_.front_of()[std::min(position[first], position[second])];
@@ -117,7 +118,7 @@ void FrontCholesky<T>::PlaceBlocks(std::span<const NodePair> pairs) {
   const std::size_t numbers = static_cast<std::size_t>(pattern_.node_size()) * pattern_.node_size();
   blocks_.resize(count);
   block_of_.resize(count);
-  std::vector<int> row_of(nodes);  // of the panel
+  Array<int> row_of(nodes);  // of the panel
   for (std::size_t f = 0; f < places_.size(); ++f) {
     const Front& at = pattern_.fronts()[f];
     const auto shape = ShapeOf(static_cast<int>(f));
@@ -182,7 +183,7 @@ template <class T>
 void FrontCholesky<T>::FindSubtrees() {
   const auto fronts = pattern_.fronts();
   const int count = static_cast<int>(fronts.size());
-  std::vector<double> work(count);
+  Array<double> work(count);
   double all = 0;
   for (int f = 0; f < count; ++f) {
     const double own = pattern_.flops(fronts[f]);
@@ -222,7 +223,7 @@ void FrontCholesky<T>::CutTree() {
   }
   for (int s = 0; s < subtrees; ++s) subtree_begin_[s + 1] += subtree_begin_[s];
   subtree_fronts_.resize(subtree_begin_.back());
-  std::vector<int> next(subtree_begin_.begin(), subtree_begin_.end() - 1);
+  Array<int> next(subtree_begin_.begin(), subtree_begin_.end() - 1);
   stages_.assign(1, {Step::kSubtrees, -1, 0, 0, subtrees});
   for (int f = 0; f < count; ++f) {
     if (subtree_of_[f] >= 0) {

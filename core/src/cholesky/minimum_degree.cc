@@ -2,13 +2,14 @@
 #include "cholesky/minimum_degree.h"
 
 #include <Eigen/OrderingMethods>
+#include <algorithm>
 
 namespace cairn {
 
-std::vector<int> MinimumDegreeOrder(const Eigen::SparseMatrix<double>& matrix) {
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
-  Eigen::AMDOrdering<int>()(matrix, order);
-  return {order.indices().begin(), order.indices().end()};
+void MinimumDegreeOrder(const Eigen::SparseMatrix<double>& matrix, std::span<int> order) {
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> found;
+  Eigen::AMDOrdering<int>()(matrix, found);
+  std::copy(found.indices().begin(), found.indices().end(), order.begin());
 }
 
 }  // namespace cairn

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-#include <vector>
+#include <span>
 
 namespace cairn {
 
@@ -10,6 +10,7 @@ namespace cairn {
 /// The only user of Eigen's orderings.
 /// @pre both triangles are stored, and the whole diagonal: without it Eigen takes every column for
 /// a dense one, and does not order at all.
-std::vector<int> MinimumDegreeOrder(const Eigen::SparseMatrix<double>& matrix);
+/// @param[out] order  one number a row
+void MinimumDegreeOrder(const Eigen::SparseMatrix<double>& matrix, std::span<int> order);
 
 }  // namespace cairn

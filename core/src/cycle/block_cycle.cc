@@ -12,7 +12,7 @@ namespace {
 /// Sweeps between two looks at how far the islands have come. The first look is after one sweep:
 /// what rests need not be swept again. From the second on what sweeps gain is learnt; see StepOdds.
 constexpr int kMostSweepsUnseen = 8;
-constexpr int kMarkedSweep = 3;
+constexpr int kMarkedSweep = kGuardedSweep;
 
 int UnseenAfter(int sweeps) {
   if (sweeps == 0) return 1;
@@ -34,7 +34,6 @@ void BlockCycle::Run(const CycleFrame& frame, Report* report) {
   sweeps_ = &sweeps;
   steps_.Begin(frame);
   Begin();
-  GuardStart();
   while (islands_.active()) Round();
   Finish();
   if (frame.learns()) planner_.Learn();
@@ -66,12 +65,15 @@ void BlockCycle::GuardStart() {
   const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kGuard});
   merits_.Find(frame_->blocks, islands_.groups());
   scales_.assign(islands_.count(), 1);
+  bool any = false;
   for (int i = 0; i < islands_.count(); ++i) {
     if (islands_[i].done() || !merits_.of(i).is_worse_than_none()) continue;
     scales_[i] = static_cast<float>(merits_.of(i).best_scale());
     islands_.report(i).guards.start = true;
+    nncg_.Forget(i);
+    any = true;
   }
-  ScaleIslands(frame_->plan(), scales_, frame_->data());
+  if (any) ScaleIslands(frame_->plan(), scales_, frame_->data());
 }
 
 void BlockCycle::GuardResult() {
@@ -118,6 +120,7 @@ void BlockCycle::Round() {
     whole = Sweep(std::min(end - islands_.SweepsMade(), unseen));
     const int made = islands_.SweepsMade();
     if (whole && made == 1) MarkStart();
+    if (whole && made == kGuardedSweep) GuardStart();
     if (whole && made >= kMarkedSweep) islands_.SeeRuns();
     if (!whole || made == end) trials_.Judge(made - before);
     JudgeIslands(whole);

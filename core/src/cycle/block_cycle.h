@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 #include "cycle/block_steps.h"
 #include "cycle/cycle_frame.h"
@@ -33,7 +32,7 @@ class BlockCycle {
 
  private:
   void Begin();
-  /// Scales start impulses that are worse than none.
+  /// Scales impulses that are worse than none after the first sweeps.
   void GuardStart();
   /// Likewise impulses in the end.
   void GuardResult();
@@ -68,10 +67,10 @@ class BlockCycle {
   Nncg nncg_;
 
   GroupChoice chosen_;
-  std::vector<Residual> after_;  ///< by island: of the present state
-  std::vector<Residual> bests_;  ///< by island: of best_; the energy is infinite if there is none
+  Array<Residual> after_;  ///< by island: of the present state
+  Array<Residual> bests_;  ///< by island: of best_; the energy is infinite if there is none
   IslandMerits merits_;
-  std::vector<float> scales_;  ///< by island: what a guard multiplies impulses by
+  Array<float> scales_;  ///< by island: what a guard multiplies impulses by
   BlockSnapshot done_, best_;
   int rounds_ = 0;
   bool started_ = false;  ///< a whole sweep was made

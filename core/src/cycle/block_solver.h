@@ -4,6 +4,7 @@
 #include <span>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 #include "cairn/settings.h"
 #include "cycle/block_cycle.h"
@@ -15,7 +16,7 @@
 namespace cairn {
 
 /// Solves contact problems on kernels, in floats, colour by colour, on threads.
-class BlockSolver {
+class BlockSolver : public detail::Placed {
  public:
   /// @p crew: as the settings of each Solve() say
   explicit BlockSolver(Crew* crew) : crew_(crew) {}

@@ -140,7 +140,7 @@ void BlockSteps::CountLines() {
   for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
 }
 
-void BlockSteps::FindMotions(double share, std::vector<IslandMotion>* motions) const {
+void BlockSteps::FindMotions(double share, Array<IslandMotion>* motions) const {
   const Plan& plan = frame_->plan();
   motions->assign(plan.islands().size(), {});
   for (int i = 0; i < static_cast<int>(problem_->bodies.size()); ++i) {
@@ -204,9 +204,27 @@ double BlockSteps::Guess(int group, std::span<const int> islands) {
     known = known && system.IsPreparedFor(frame_->plan_number(), group);
   });
   if (known) return 0;
-  // graphs change, but rarely what a step on them takes
-  const double last = MemoryOf(islands[0])->price_of_row();
-  return (last > 0 ? last : kUnknownRow) * static_cast<double>(frame_->plan().groups()[group].rows);
+  const Group& of = frame_->plan().groups()[group];
+  double bodies = 0;
+  for (int i : frame_->plan().islands_of_groups().subspan(of.first_island, of.islands)) {
+    bodies += frame_->plan().islands()[i].bodies;
+  }
+  const Precisions precisions = PrecisionsOf(islands);
+  const Unknown graph{static_cast<double>(of.x_lines), static_cast<double>(of.rows), bodies};
+  const FactorSize& last = MemoryOf(islands[0])->factor_size();
+  return (precisions.some_double ? GuessOf<double>(graph, last, 1) : 0) +
+         (precisions.all_double ? 0 : GuessOf<float>(graph, last, 1));
+}
+
+template <class T>
+double BlockSteps::GuessOf(const Unknown& graph, const FactorSize& last, int factorisations) const {
+  if (last.bodies == 0) return factorisations * kUnknownRow * graph.rows;
+  // Graphs change, but rarely what a body of them costs. One that is smaller by far has less to
+  // fill in.
+  const double bodies = graph.bodies / last.bodies;
+  return PriceOf<T>({graph.lines, bodies * std::min(1.0, bodies) * last.flops,
+                     bodies * last.nonzeros, graph.bodies},
+                    factorisations);
 }
 
 BlockSteps::AnalysisPrice BlockSteps::PriceOfAnalysis(int group, std::span<const int> islands) {
@@ -240,11 +258,11 @@ double BlockSteps::Price(int group, std::span<const int> islands, int factorisat
   const bool condense = std::any_of(islands.begin(), islands.end(),
                                     [this](int i) { return MemoryOf(i)->condenses_joints(); });
   if (condense) ++factorisations;
-  const double price = (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
-                       (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
-  const double rows = static_cast<double>(frame_->plan().groups()[group].rows);
-  MemoryOf(islands[0])->RememberPrice(price / (factorisations * rows));
-  return price;
+  ForSystems(group, islands, [&](const auto& system) {
+    MemoryOf(islands[0])->Remember({system.flops(), system.nonzeros(), 1.0 * system.nodes()});
+  });
+  return (precisions.some_double ? PriceOf<double>(group, factorisations) : 0) +
+         (precisions.all_double ? 0 : PriceOf<float>(group, factorisations));
 }
 
 template <class T>
@@ -292,17 +310,15 @@ double BlockSteps::PriceAloneOf(int group, int island, int factorisations) {
   const PlannedIsland& of = frame_->plan().islands()[island];
   BlockSystem<T>& system = SystemOf<T>(group);
   if (!system.Recognise(frame_->plan(), frame_->plan_number(), group)) {
-    const double last = MemoryOf(island)->price_of_row();
     // mostly there are about as many pairs as bodies
     const double analysis = 2 * kAnalyse * of.bodies / system.steps_of_analysis();
-    return factorisations * of.rows * (last > 0 ? last : kUnknownRow) + analysis;
+    const Unknown graph{1.0 * lines_[island], 1.0 * of.rows, 1.0 * of.bodies};
+    return GuessOf<T>(graph, MemoryOf(island)->factor_size(), factorisations) + analysis;
   }
-  const double share = static_cast<double>(of.bodies) / system.nodes();
-  const double price = PriceOf<T>({static_cast<double>(lines_[island]), share * system.flops(),
-                                   share * system.nonzeros(), share * system.nodes()},
-                                  factorisations);
-  MemoryOf(island)->RememberPrice(price / (factorisations * of.rows));
-  return price;
+  const double bodies = of.bodies, share = bodies / system.nodes();
+  const FactorSize own{share * system.flops(), share * system.nonzeros(), bodies};
+  MemoryOf(island)->Remember(own);
+  return PriceOf<T>({1.0 * lines_[island], own.flops, own.nonzeros, bodies}, factorisations);
 }
 
 void BlockSteps::Take(int group, std::span<const int> islands) {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cycle/cycle_frame.h"
 #include "step/block_step.h"
 #include "step/merit.h"
@@ -88,7 +88,7 @@ class BlockSteps {
   void ReadIslands();
   void CountLines();
   /// With so much of what impulses change velocities by.
-  void FindMotions(double share, std::vector<IslandMotion>* motions) const;
+  void FindMotions(double share, Array<IslandMotion>* motions) const;
   template <class T>
   BlockSystem<T>& SystemOf(int group);
   /// function(system) for each that the islands need.
@@ -99,6 +99,13 @@ class BlockSteps {
   };
   template <class T>
   double PriceOf(const SystemSize& size, int factorisations) const;
+  /// A graph that was not looked at yet.
+  struct Unknown {
+    double lines, rows, bodies;
+  };
+  /// What a step there is thought to cost, by the last factor of the island.
+  template <class T>
+  double GuessOf(const Unknown& graph, const FactorSize& last, int factorisations) const;
   template <class T>
   double PriceOf(int group, int factorisations);
   template <class T>
@@ -114,28 +121,28 @@ class BlockSteps {
   Crew* crew_ = nullptr;
   bool asked_ = false;
 
-  int plan_number_ = -1;               ///< of what follows
-  std::vector<int> limits_;            ///< by island: factorisations
-  std::vector<double> set_up_;         ///< by island: what comes before and after sweeps
-  std::vector<double> scalar_set_up_;  ///< the same row by row
-  std::vector<int> lines_;             ///< by island, as if it had lanes of its own
+  int plan_number_ = -1;         ///< of what follows
+  Array<int> limits_;            ///< by island: factorisations
+  Array<double> set_up_;         ///< by island: what comes before and after sweeps
+  Array<double> scalar_set_up_;  ///< the same row by row
+  Array<int> lines_;             ///< by island, as if it had lanes of its own
   /// Lanes that would share blocks, while lines are counted.
   struct Alike {
     int colour = -1;
     const simd::RowShape* shape = nullptr;
     int rows = 0, lanes = 0;
   };
-  std::vector<Alike> alike_;         ///< by island
-  std::vector<char> in_double_;      ///< by island
-  std::vector<char> limited_;        ///< by island: some row has bounds of its own
-  std::vector<double> strains_;      ///< by island, none if no body is strained
-  std::vector<std::uint64_t> keys_;  ///< by island
-  std::vector<IslandMemory*> memory_of_island_;
-  std::vector<IslandStep> islands_, islands_now_;
-  std::vector<double> work_;    ///< by island
-  std::vector<double> masses_;  ///< likewise
-  std::vector<IslandMotion> before_, after_;
-  std::vector<char> given_up_;  ///< likewise
+  Array<Alike> alike_;         ///< by island
+  Array<char> in_double_;      ///< by island
+  Array<char> limited_;        ///< by island: some row has bounds of its own
+  Array<double> strains_;      ///< by island, none if no body is strained
+  Array<std::uint64_t> keys_;  ///< by island
+  Array<IslandMemory*> memory_of_island_;
+  Array<IslandStep> islands_, islands_now_;
+  Array<double> work_;    ///< by island
+  Array<double> masses_;  ///< likewise
+  Array<IslandMotion> before_, after_;
+  Array<char> given_up_;  ///< likewise
   std::unique_ptr<BlockStep<float>> float_step_;
   std::unique_ptr<BlockStep<double>> double_step_;
 };

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 #include "plan/plan.h"
 #include "sweep/block_sweep.h"
@@ -99,11 +99,11 @@ class CycleIslands {
 
  private:
   const Plan* plan_ = nullptr;
-  std::vector<IslandProgress> states_;
-  std::vector<IslandReport> reports_;
-  std::vector<GroupSweeps> groups_;
-  std::vector<int> stopped_;  ///< since groups were closed
-  std::vector<Residual> last_seen_;
+  Array<IslandProgress> states_;
+  Array<IslandReport> reports_;
+  Array<GroupSweeps> groups_;
+  Array<int> stopped_;  ///< since groups were closed
+  Array<Residual> last_seen_;
 };
 
 template <class Function>
@@ -135,7 +135,7 @@ class GroupChoice {
 
  private:
   const Plan* plan_ = nullptr;
-  std::vector<GroupSweeps> groups_;
+  Array<GroupSweeps> groups_;
 };
 
 }  // namespace cairn

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 
 namespace cairn {
@@ -30,7 +30,7 @@ class QuietBodies {
     int solves = 0;
   };
 
-  std::vector<Count> counts_;  ///< by body
+  Array<Count> counts_;  ///< by body
 };
 
 }  // namespace cairn

@@ -24,7 +24,9 @@ constexpr double kMoreOnceStepped = 1.5;
 constexpr double kStrained = 1;
 /// Within so many tolerances sweeps do the rest.
 constexpr double kNear = 10;
-/// Error that a step meets at most where there was none in the last frame [m/s] or [rad/s].
+/// Error of joints that a step meets at most where there was none in the last frame [m/s] or
+/// [rad/s]. Contacts part by centimetres at most, and what flings bodies is undone: towers that
+/// rock would never get a step again.
 constexpr double kMostThrown = 1;
 /// The same where it is strained: what waits longer parts further.
 constexpr double kMostThrownStrained = 3;
@@ -134,11 +136,11 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const StepOdds& odds = steps_->odds(i);
   const double largest = Largest((*islands_)[i].seen);
   const bool near = largest <= kNear * frame_->settings.tolerance;
-  // what sweeps have left unsolved for long, a single step would throw
+  // what sweeps have left joints open by for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
   const bool strained = steps_->strain(i) > kStrained;
-  const bool thrown =
-      !odds.stepped_most(bodies) && largest > (strained ? kMostThrownStrained : kMostThrown);
+  const bool thrown = steps_->HasJoints(i) && !odds.stepped_most(bodies) &&
+                      largest > (strained ? kMostThrownStrained : kMostThrown);
   if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
   const double rest = steps_->RestAlone(i, frame_->settings.max_sweeps);
   const double scalar = steps_->ScalarAlone(i, frame_->settings.max_sweeps);

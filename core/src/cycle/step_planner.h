@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cycle/block_steps.h"
 #include "cycle/cycle_frame.h"
 #include "cycle/cycle_islands.h"
@@ -49,7 +49,7 @@ class StepPlanner {
   const CycleFrame* frame_ = nullptr;
   BlockSteps* steps_ = nullptr;
   CycleIslands* islands_ = nullptr;
-  std::vector<int> planned_;
+  Array<int> planned_;
 };
 
 }  // namespace cairn

@@ -27,7 +27,7 @@ void StepTrials::Choose(std::span<const int> islands) {
   for (int i : islands) chosen_.Add(i);
 }
 
-void StepTrials::Measure(std::vector<Residual>* residuals) {
+void StepTrials::Measure(Array<Residual>* residuals) {
   const size_t islands = frame_->plan().islands().size();
   if (residuals->size() < islands) residuals->resize(islands);
   parts_.sweeps->Measure(chosen_.groups());

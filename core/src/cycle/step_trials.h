@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 #include "cycle/block_steps.h"
 #include "cycle/cycle_frame.h"
@@ -42,7 +42,7 @@ class StepTrials {
 
   void TakeOfGroup(int group, std::span<const int> islands);
   /// Residuals of the islands of the groups that are chosen.
-  void Measure(std::vector<Residual>* residuals);
+  void Measure(Array<Residual>* residuals);
   void Choose(std::span<const int> islands);
   /// Marks steps that put in energy, threw or flung bodies, or left impulses that floats cannot
   /// hold.
@@ -67,9 +67,9 @@ class StepTrials {
   const CycleFrame* frame_ = nullptr;
   Parts parts_ = {};
   GroupChoice chosen_;
-  std::vector<int> stepped_;
-  std::vector<Verdict> verdicts_;                                      ///< by island
-  std::vector<Residual> seen_with_step_, before_, with_step_, alone_;  ///< by island
+  Array<int> stepped_;
+  Array<Verdict> verdicts_;                                      ///< by island
+  Array<Residual> seen_with_step_, before_, with_step_, alone_;  ///< by island
   IslandMerits merits_before_, merits_with_step_, merits_alone_;
   BlockSnapshot before_steps_, after_steps_;
 };

@@ -237,7 +237,7 @@ Vector3d Substeps::MeanSpin(const Way& way) const {
 void Substeps::MoveBodies() {
   // one part turns bodies as its spin says, however fast
   const bool turns = whole_.time_step > 0 && parts_ > 1;
-  const std::vector<Velocity>& moves = relaxed_ ? moves_ : velocities_;
+  const Array<Velocity>& moves = relaxed_ ? moves_ : velocities_;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     Way& way = ways_[i];

@@ -3,9 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
@@ -86,22 +86,22 @@ class Substeps {
 
   ContactProblem whole_;
   int parts_ = 1, part_ = 1;
-  std::vector<Body> bodies_;
-  std::vector<Row> rows_;
-  std::vector<ContactPoint> points_;
-  std::vector<ContactMotion> motions_;
-  std::vector<ContactTwist> twists_;
-  std::vector<JointRow> joint_rows_;
-  std::vector<double> rows_x_, rows_sum_;
-  std::vector<ContactImpulse> points_x_, points_sum_;  ///< of sums: direction is a push [N s]
-  std::vector<TwistImpulse> twists_x_, twists_sum_;
-  std::vector<float> joints_x_, joints_sum_;
-  std::vector<Velocity> velocities_, means_;
-  std::vector<Velocity> moves_;  ///< of the part, if it was relaxed
+  Array<Body> bodies_;
+  Array<Row> rows_;
+  Array<ContactPoint> points_;
+  Array<ContactMotion> motions_;
+  Array<ContactTwist> twists_;
+  Array<JointRow> joint_rows_;
+  Array<double> rows_x_, rows_sum_;
+  Array<ContactImpulse> points_x_, points_sum_;  ///< of sums: direction is a push [N s]
+  Array<TwistImpulse> twists_x_, twists_sum_;
+  Array<float> joints_x_, joints_sum_;
+  Array<Velocity> velocities_, means_;
+  Array<Velocity> moves_;  ///< of the part, if it was relaxed
   bool relaxed_ = false;
-  std::vector<Way> ways_;
-  std::vector<Held> held_;
-  std::vector<char> is_held_;  ///< by row of a joint
+  Array<Way> ways_;
+  Array<Held> held_;
+  Array<char> is_held_;  ///< by row of a joint
 };
 
 }  // namespace cairn

@@ -57,6 +57,14 @@ Normal NormalOf(const ContactOptions& options, double restitution, const Approac
 
 }  // namespace
 
+Contacts::Contacts(const ContactOptions& options, Memory* memory)
+    : options_(options),
+      manifolds_(memory),
+      points_(memory),
+      impulses_(memory),
+      keys_(memory),
+      kept_(memory) {}
+
 void Contacts::Begin(const StepInput& step) {
   kept_.clear();
   for (size_t i = 0; i < keys_.size(); ++i) {
@@ -67,6 +75,7 @@ void Contacts::Begin(const StepInput& step) {
     return a.key != b.key ? a.key < b.key : a.place < b.place;
   });
   step_ = step;
+  deepest_ = {};
   manifolds_.clear();
   points_.clear();
   impulses_.clear();
@@ -109,6 +118,9 @@ void Contacts::AddPoint(const Touch& touch, const TouchPoint& from, Manifold* ma
           Along(a, FreeVelocity(step_, touch.body_a)) + Along(b, FreeVelocity(step_, touch.body_b)),
       .mobility = Mobility(step_, touch.body_a, a) + Mobility(step_, touch.body_b, b)};
   const Normal row = NormalOf(options_, touch.restitution, approach, from.depth, step_.time_step);
+  if (from.depth > deepest_.largest) {
+    deepest_ = {from.depth, std::clamp(row.bias * step_.time_step, 0.0, from.depth)};
+  }
 
   if (row.is_speed) manifold->speeds |= static_cast<std::uint8_t>(1 << manifold->points);
   ++manifold->points;

@@ -59,6 +59,15 @@ JointKind ConeTwistJoint(double cone, const JointAxis& twist) {
 
 double TwistOf(const JointSide& a, const JointSide& b) { return FindTwist(a, b).angle; }
 
+Joints::Joints(double erp, Memory* memory)
+    : erp_(erp),
+      joints_(memory),
+      rows_(memory),
+      impulses_(memory),
+      kept_impulses_(memory),
+      ids_(memory),
+      kept_(memory) {}
+
 void Joints::Begin(const StepInput& step) {
   kept_.clear();
   for (size_t i = 0; i < joints_.size(); ++i) {
@@ -70,6 +79,7 @@ void Joints::Begin(const StepInput& step) {
   });
   kept_impulses_.swap(impulses_);
   step_ = step;
+  gap_ = angle_ = {};
   joints_.clear();
   rows_.clear();
   impulses_.clear();
@@ -120,7 +130,7 @@ int Joints::AddGear(const JointGear& a, const JointGear& b, std::uint64_t id) {
   JointRow& row = AddRow({.a = {Vector3d::Zero(), View(a.side.axes).col(0)},
                           .b = {Vector3d::Zero(), ratio * View(b.side.axes).col(0)},
                           .turns = true});
-  TakeBack(erp_ * error, &row);
+  TakeBack(error, &row);
   return Close(id);
 }
 
@@ -131,6 +141,7 @@ void Joints::Open(const JointSide& a, const JointSide& b) {
   joint.first_row = static_cast<int>(rows_.size());
   joint.rows = 0;
   joint.opposite = true;
+  gap_square_ = angle_square_ = 0;
 }
 
 JointRow& Joints::AddRow(const Way& way) {
@@ -149,8 +160,10 @@ JointRow& Joints::AddRow(const Way& way) {
 
 void Joints::TakeBack(double error, JointRow* row) {
   Joint& joint = joints_.back();
-  joint.errors |= std::uint32_t{1} << (joint.rows - 1);
-  row->target = static_cast<float>(-error / step_.time_step);
+  const std::uint32_t bit = std::uint32_t{1} << (joint.rows - 1);
+  joint.errors |= bit;
+  ((joint.angular & bit) != 0 ? angle_square_ : gap_square_) += error * error;
+  row->target = static_cast<float>(-erp_ * error / step_.time_step);
 }
 
 void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
@@ -162,7 +175,7 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     row->hi = static_cast<float>(hi);
   };
   if (axis.lo == axis.hi) {
-    TakeBack(erp_ * (position - axis.lo), &AddRow(way));
+    TakeBack(position - axis.lo, &AddRow(way));
   } else if (axis.lo > -kInfinity || axis.hi < kInfinity) {
     const bool lower = position - axis.lo <= axis.hi - position;
     const double to_limit = (lower ? axis.lo : axis.hi) - position;
@@ -171,7 +184,7 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     if (inside) {
       row.target = static_cast<float>(to_limit / h);
     } else {
-      TakeBack(-erp_ * to_limit, &row);
+      TakeBack(-to_limit, &row);
     }
     lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
   }
@@ -218,6 +231,12 @@ int Joints::Close(std::uint64_t id) {
     joints_.pop_back();
     return -1;
   }
+  const auto tell = [this](double square, PositionError* worst) {
+    const double error = std::sqrt(square);
+    if (error > worst->largest) *worst = {error, erp_ * error};
+  };
+  tell(gap_square_, &gap_);
+  tell(angle_square_, &angle_);
   ids_.push_back(id);
   impulses_.resize(rows_.size(), 0);
   const auto found =

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 #include "pack/block_pack.h"
 #include "plan/plan.h"
@@ -56,7 +56,7 @@ class BlockFrame {
   void Start(Crew* crew);
   BlockPacker PackerOf(const ContactProblem& problem) const;
 
-  const simd::Target target_ = simd::ChooseTarget().target;
+  const simd::Target target_ = simd::ChosenTarget();
   const simd::PairKernels* kernels_ = &simd::PairKernelsFor(target_);
   const simd::LaneKernels* lane_kernels_ = &simd::LaneKernelsFor(target_);
   simd::RowPackKernel pack_row_ = simd::RowPackKernelFor(target_);
@@ -64,20 +64,20 @@ class BlockFrame {
   const simd::ContactKernels* contact_kernels_ = &simd::ContactKernelsFor(target_);
   Crew* crew_ = nullptr;
   Plan plan_;
-  std::vector<RowKind> row_kinds_;
-  std::vector<Joint> planned_joints_;
-  std::vector<Manifold> planned_manifolds_;
+  Array<RowKind> row_kinds_;
+  Array<Joint> planned_joints_;
+  Array<Manifold> planned_manifolds_;
   int plan_number_ = 0;
   double omega_ = 1;
   size_t planned_rows_ = 0;
   bool planned_ = false;
   bool strained_ = false;
   MovableBodies movable_, movable_now_;
-  std::vector<WhitenedBody> bodies_;
-  std::vector<simd::ContactBody> contact_bodies_;
+  Array<WhitenedBody> bodies_;
+  Array<simd::ContactBody> contact_bodies_;
   BlockData blocks_;
-  std::vector<simd::BlockError> errors_;
-  std::vector<double> scales_;
+  Array<simd::BlockError> errors_;
+  Array<double> scales_;
 };
 
 }  // namespace cairn

@@ -301,7 +301,7 @@ class OneBlock {
 };
 
 template <class T>
-void Grow(size_t size, std::vector<T>* values) {
+void Grow(size_t size, Array<T>* values) {
   if (values->size() < size) values->resize(size);
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "plan/plan.h"
 #include "problem/whitening.h"
 #include "simd/pairs/pair_block.h"
@@ -16,10 +16,10 @@ namespace cairn {
 
 /// Everything that kernels read and write, in floats: 50 bytes or so a row.
 struct BlockData {
-  std::vector<simd::Line> data;        ///< constant during a Solve(); see simd::PairForm
-  std::vector<simd::Line> x;           ///< impulses
-  std::vector<simd::Line> directions;  ///< of friction, where manifolds are; see manifold_pack
-  std::vector<simd::BodyLane> bodies;  ///< u, by slot of the plan
+  Array<simd::Line> data;        ///< constant during a Solve(); see simd::PairForm
+  Array<simd::Line> x;           ///< impulses
+  Array<simd::Line> directions;  ///< of friction, where manifolds are; see manifold_pack
+  Array<simd::BodyLane> bodies;  ///< u, by slot of the plan
 };
 
 /// What became of rows that were to be packed.

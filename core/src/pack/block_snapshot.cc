@@ -6,8 +6,8 @@
 namespace cairn {
 namespace {
 
-using Lines = std::vector<simd::Line>;
-using Bodies = std::vector<simd::BodyLane>;
+using Lines = Array<simd::Line>;
+using Bodies = Array<simd::BodyLane>;
 
 /// Impulses and bodies of an island, which may share its lines with others.
 void Copy(const Plan& plan, int island, const Lines& x_from, const Bodies& bodies_from, Lines* x,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
+#include "cairn/detail/memory.h"
 #include "pack/block_pack.h"
 #include "plan/plan.h"
 
@@ -17,8 +16,8 @@ class BlockSnapshot {
   void Restore(const Plan& plan, int island, BlockData* blocks) const;
 
  private:
-  std::vector<simd::Line> x_;
-  std::vector<simd::BodyLane> bodies_;
+  Array<simd::Line> x_;
+  Array<simd::BodyLane> bodies_;
 };
 
 }  // namespace cairn

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "plan/pairs.h"
 
 namespace cairn {
@@ -56,15 +56,15 @@ class Colouring {
   int Choose(const Pair& pair, int kind);
   void Occupy(const Pair& pair, int kind, int colour);
 
-  std::vector<Known> known_, next_;
-  std::vector<int> table_;  ///< open addressing into known_: place + 1, or 0
+  Array<Known> known_, next_;
+  Array<int> table_;  ///< open addressing into known_: place + 1, or 0
   bool table_filled_ = false;
-  std::vector<std::uint64_t> body_names_;
-  std::vector<int> colours_, before_;
+  Array<std::uint64_t> body_names_;
+  Array<int> colours_, before_;
   struct BodyMasks {
     Masks used;
   };
-  std::vector<BodyMasks> masks_;  ///< by body: colours taken
+  Array<BodyMasks> masks_;  ///< by body: colours taken
 };
 
 }  // namespace cairn

@@ -2,7 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
+
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
@@ -35,10 +36,10 @@ class PairOrder {
   template <class Part>
   void SortBy(int values, const Part& part);
 
-  std::vector<PairKey> keys_, last_keys_;
-  std::vector<int> order_, scratch_, counts_;
-  std::vector<int> moved_;  ///< places in the list, of pairs that are new or have another key
-  std::vector<int> kept_;   ///< by place in the last list: that in the new one, -1 if not kept
+  Array<PairKey> keys_, last_keys_;
+  Array<int> order_, scratch_, counts_;
+  Array<int> moved_;  ///< places in the list, of pairs that are new or have another key
+  Array<int> kept_;   ///< by place in the last list: that in the new one, -1 if not kept
 };
 
 }  // namespace cairn

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "plan/row_kind.h"
 #include "simd/pairs/pair_block.h"
 
@@ -47,15 +47,15 @@ class ShapeTable {
   void Clear();
 
  private:
-  std::vector<simd::RowShape> rows_;
-  std::vector<int> begin_ = {0};
-  std::vector<RowSource> sources_;
+  Array<simd::RowShape> rows_;
+  Array<int> begin_ = {0};
+  Array<RowSource> sources_;
 };
 
 /// The structure of a problem: who touches whom, with what kind of rows. No numbers.
 struct PairList {
-  std::vector<Pair> pairs;  ///< In the order of their first row; then joints, then manifolds.
-  std::vector<int> rows;    ///< Problem rows, pair by pair, ascending within a pair.
+  Array<Pair> pairs;  ///< In the order of their first row; then joints, then manifolds.
+  Array<int> rows;    ///< Problem rows, pair by pair, ascending within a pair.
 
   std::span<const int> rows_of(const Pair& pair) const {
     return {rows.data() + pair.first, static_cast<size_t>(pair.rows)};
@@ -68,7 +68,7 @@ enum Mobility : char {
   kMoved,
   kMovedEvenly,  ///< And pushed the same way in all directions.
 };
-using MovableBodies = std::vector<Mobility>;
+using MovableBodies = Array<Mobility>;
 Mobility MobilityOf(const Body& body);
 
 /// Collects the rows of each pair of bodies. Consecutive rows of the same bodies stay together; a
@@ -98,10 +98,10 @@ class PairFinder {
   std::span<const RowKind> row_kinds_;
   const MovableBodies* movable_ = nullptr;
   PairList* list_ = nullptr;
-  std::vector<int> pair_of_row_;
-  std::vector<int> table_;  ///< open addressing: pair + 1, or 0
-  std::vector<int> place_;  ///< problem row -> row of its pair
-  std::vector<simd::RowShape> scratch_;
+  Array<int> pair_of_row_;
+  Array<int> table_;  ///< open addressing: pair + 1, or 0
+  Array<int> place_;  ///< problem row -> row of its pair
+  Array<simd::RowShape> scratch_;
 };
 
 }  // namespace cairn

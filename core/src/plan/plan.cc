@@ -60,7 +60,7 @@ void Plan::FindIslands(int bodies) {
   for (const Pair& pair : list_.pairs) island_finder_.Join(pair.a, pair.b);
   islands_.assign(island_finder_.Number(), {});
 
-  const std::vector<int>& island_of = island_finder_.island_of_body();
+  const Array<int>& island_of = island_finder_.island_of_body();
   for (int body = bodies - 1; body >= 0; --body) {
     if (island_of[body] < 0) continue;
     PlannedIsland& island = islands_[island_of[body]];

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "plan/colouring.h"
 #include "plan/pair_order.h"
 #include "plan/pairs.h"
@@ -120,21 +120,21 @@ class Plan {
   Colouring colouring_;
   IslandFinder island_finder_;
 
-  std::vector<PlannedIsland> islands_;
-  std::vector<int> islands_of_groups_;
-  std::vector<int> island_of_pair_;
-  std::vector<Group> groups_;
+  Array<PlannedIsland> islands_;
+  Array<int> islands_of_groups_;
+  Array<int> island_of_pair_;
+  Array<Group> groups_;
 
   PairOrder pair_order_;
-  std::vector<PairKey> keys_;
-  std::vector<int> order_;  ///< pairs in the order of a sweep
-  std::vector<simd::PairBlock> blocks_;
-  std::vector<int> pair_of_lane_, island_of_lane_;
-  std::vector<int> colour_of_block_;
-  std::vector<int> slot_of_body_, body_of_slot_;
-  std::vector<Unit> units_;
-  std::vector<Stage> stages_;
-  std::vector<Phase> phases_;
+  Array<PairKey> keys_;
+  Array<int> order_;  ///< pairs in the order of a sweep
+  Array<simd::PairBlock> blocks_;
+  Array<int> pair_of_lane_, island_of_lane_;
+  Array<int> colour_of_block_;
+  Array<int> slot_of_body_, body_of_slot_;
+  Array<Unit> units_;
+  Array<Stage> stages_;
+  Array<Phase> phases_;
   int data_lines_ = 0, x_lines_ = 0;
   int unmoved_slot_ = 0;  ///< next one for a pair that cannot move
 };

@@ -164,8 +164,8 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
 
 void ContactExpansion::Add(const Manifold& manifold, const ContactProblem& problem,
                            const Impulses& start) {
-  std::vector<Row> frictions;
-  std::vector<double> starts;
+  Array<Row> frictions;
+  Array<double> starts;
   const int first = static_cast<int>(rows_.size());
   for (int p = 0; p < manifold.points; ++p) {
     const ContactPoint& point = problem.points[manifold.first_point + p];

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
 #include "cairn/detail/eigen.h"
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
@@ -37,12 +37,12 @@ class ContactExpansion {
 
   std::span<const Body> bodies_;
   std::span<const ContactMotion> motions_;
-  std::vector<Row> rows_;
-  std::vector<double> impulses_;
+  Array<Row> rows_;
+  Array<double> impulses_;
   size_t given_ = 0;  ///< rows of the problem itself; those that are written out come behind
-  std::vector<Joint> joints_;
-  std::vector<Manifold> manifolds_;
-  std::vector<Directions> directions_;  ///< of their points, one after the other
+  Array<Joint> joints_;
+  Array<Manifold> manifolds_;
+  Array<Directions> directions_;  ///< of their points, one after the other
 };
 
 }  // namespace cairn

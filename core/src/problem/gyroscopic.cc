@@ -14,8 +14,7 @@ void Find(simd::GyroscopicKernel<Scalar> kernel, Scalar time_step, Gyroscopes<Sc
 
 /// Chosen once for all: bits do not depend on it.
 const simd::GyroscopicKernels& Kernels() {
-  static const simd::GyroscopicKernels& kKernels =
-      simd::GyroscopicKernelsFor(simd::ChooseTarget().target);
+  static const simd::GyroscopicKernels& kKernels = simd::GyroscopicKernelsFor(simd::ChosenTarget());
   return kKernels;
 }
 

@@ -44,8 +44,8 @@ int IslandFinder::Number() {
   return count;
 }
 
-std::vector<Island> FindIslands(const ContactProblem& problem) {
-  std::vector<char> can_move;
+Array<Island> FindIslands(const ContactProblem& problem) {
+  Array<char> can_move;
   can_move.reserve(problem.bodies.size());
   for (const Body& body : problem.bodies) can_move.push_back(CanMove(body));
   const auto movable = [&can_move](int body) {
@@ -55,8 +55,8 @@ std::vector<Island> FindIslands(const ContactProblem& problem) {
   IslandFinder finder;
   finder.Start(static_cast<int>(problem.bodies.size()));
   for (const Row& row : problem.rows) finder.Join(movable(row.body_a), movable(row.body_b));
-  std::vector<Island> islands(finder.Number());
-  const std::vector<int>& island_of = finder.island_of_body();
+  Array<Island> islands(finder.Number());
+  const Array<int>& island_of = finder.island_of_body();
   for (int body = 0; body < static_cast<int>(problem.bodies.size()); ++body) {
     if (island_of[body] >= 0) islands[island_of[body]].bodies.push_back(body);
   }

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 
 /// Bodies connected by rows, and those rows in the order of the problem. Bodies that cannot move
 /// connect nothing and belong to no island.
 struct Island {
-  std::vector<int> bodies;  ///< ascending problem indices
-  std::vector<int> rows;    ///< ascending problem indices
+  Array<int> bodies;  ///< ascending problem indices
+  Array<int> rows;    ///< ascending problem indices
 };
 
 bool CanMove(const Body& body);
@@ -26,16 +25,16 @@ class IslandFinder {
   /// Numbers the islands by their first body. Returns how many there are.
   int Number();
   /// -1 for a body without rows. @pre Number()
-  const std::vector<int>& island_of_body() const { return island_; }
+  const Array<int>& island_of_body() const { return island_; }
 
  private:
   int Root(int body);
 
-  std::vector<int> parent_;
-  std::vector<int> island_;  ///< before Number(): 0 where a body has rows, else -1
+  Array<int> parent_;
+  Array<int> island_;  ///< before Number(): 0 where a body has rows, else -1
 };
 
 /// Ordered by their first body. Rows without a movable body form a last island without bodies.
-std::vector<Island> FindIslands(const ContactProblem& problem);
+Array<Island> FindIslands(const ContactProblem& problem);
 
 }  // namespace cairn

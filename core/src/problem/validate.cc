@@ -210,26 +210,50 @@ BadSetting FindBadSize(const ContactProblem& problem, const Impulses& impulses) 
   return bad;
 }
 
+namespace {
+
+/// The field that says how many of an array it has, or where, and is wrong; if any.
+BadSetting FindBadField(const ContactProblem& problem, const Joint& joint) {
+  static_assert(Joint::kMostRows == 32);
+  if (!Inside(joint.rows, 1, Joint::kMostRows)) {
+    return {"rows", static_cast<double>(joint.rows), "1 to 32"};
+  }
+  const auto last = static_cast<std::int64_t>(problem.joint_rows.size()) - joint.rows;
+  if (joint.first_row >= 0 && joint.first_row <= last) return {};
+  return {"first_row", static_cast<double>(joint.first_row),
+          "0 to problem.joint_rows.size() - rows"};
+}
+
+BadSetting FindBadField(const ContactProblem& problem, const Manifold& manifold) {
+  static_assert(Manifold::kMostPoints == 4);
+  if (!Inside(manifold.points, 1, Manifold::kMostPoints)) {
+    return {"points", static_cast<double>(manifold.points), "1 to 4"};
+  }
+  if (!Inside(manifold.tangents, 0, 2)) {
+    return {"tangents", static_cast<double>(manifold.tangents), "0 to 2"};
+  }
+  if (manifold.twists && problem.twists.empty()) {
+    return {"twists", 1, "0 without problem.twists"};
+  }
+  const auto last = static_cast<std::int64_t>(problem.points.size()) - manifold.points;
+  if (manifold.first_point >= 0 && manifold.first_point <= last) return {};
+  return {"first_point", static_cast<double>(manifold.first_point),
+          "0 to problem.points.size() - points"};
+}
+
+}  // namespace
+
 Status ValidateJoint(const ContactProblem& problem, int index) {
   const Joint& joint = problem.joints[index];
   if (!JoinsTwo(problem, joint.body_a, joint.body_b)) return Status::kNoSuchBody;
-  const bool rows = Inside(joint.rows, 1, Joint::kMostRows) && joint.first_row >= 0;
-  const auto end = static_cast<std::int64_t>(joint.first_row) + joint.rows;
-  const bool there = end <= static_cast<std::int64_t>(problem.joint_rows.size());
-  if (!rows || !there) return Status::kWrongSize;
+  if (FindBadField(problem, joint).name != nullptr) return Status::kWrongSize;
   return std::isfinite(joint.damping) ? Status::kOk : Status::kNotFinite;
 }
 
 Status ValidateManifold(const ContactProblem& problem, int index) {
   const Manifold& manifold = problem.manifolds[index];
   if (!JoinsTwo(problem, manifold.body_a, manifold.body_b)) return Status::kNoSuchBody;
-
-  const bool points = Inside(manifold.points, 1, Manifold::kMostPoints) &&
-                      Inside(manifold.tangents, 0, 2) && manifold.first_point >= 0;
-  const auto end = static_cast<std::int64_t>(manifold.first_point) + manifold.points;
-  const bool there = end <= static_cast<std::int64_t>(problem.points.size());
-  const bool twists = !manifold.twists || !problem.twists.empty();
-  return points && there && twists ? Status::kOk : Status::kWrongSize;
+  return FindBadField(problem, manifold).name == nullptr ? Status::kOk : Status::kWrongSize;
 }
 
 Report Validate(const ContactProblem& problem, const Impulses& impulses) {
@@ -268,13 +292,21 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   };
   if (refused(problem.bodies.size(), body, &report.bad_body)) return report;
   if (refused(problem.rows.size(), row, &report.bad_row)) return report;
-  if (refused(problem.joints.size(), joint, &report.bad_joint)) return report;
+  const auto name_field = [&](const auto& items, int bad) {
+    if (report.status == Status::kWrongSize) report.bad_setting = FindBadField(problem, items[bad]);
+    return report;
+  };
+  if (refused(problem.joints.size(), joint, &report.bad_joint)) {
+    return name_field(problem.joints, report.bad_joint);
+  }
   const float bounce = problem.contact_law.bounce_speed;
   if (!(bounce >= 0)) {
     report.status = Status::kNotFinite;
     report.bad_setting = {"problem.contact_law.bounce_speed", bounce, "0 or more"};
   }
-  if (report.ok()) refused(problem.manifolds.size(), manifold, &report.bad_manifold);
+  if (report.ok() && refused(problem.manifolds.size(), manifold, &report.bad_manifold)) {
+    return name_field(problem.manifolds, report.bad_manifold);
+  }
   return report;
 }
 

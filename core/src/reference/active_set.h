@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
+#include "cairn/detail/memory.h"
 #include "reference/pack.h"
 #include "simd/pairs/pair_active_set.h"
 
@@ -11,7 +10,7 @@ namespace cairn {
 using simd::RowSide;
 
 /// The predicted set of one island, one entry per row.
-using ActiveSet = std::vector<RowSide>;
+using ActiveSet = Array<RowSide>;
 
 /// The impulse a row has while it is not free.
 inline double FixedImpulse(RowSide side, Bounds bounds) {

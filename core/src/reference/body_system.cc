@@ -13,8 +13,8 @@ BodyPair PairOf(const PackedRow& row) { return std::minmax(row.a, row.b); }
 
 bool JoinsTwo(const PackedRow& row) { return row.a != 0 && row.b != 0; }
 
-std::vector<BodyPair> FindPairs(const PackedIsland& island) {
-  std::vector<BodyPair> pairs;
+Array<BodyPair> FindPairs(const PackedIsland& island) {
+  Array<BodyPair> pairs;
   for (const PackedRow& row : island.rows) {
     if (!JoinsTwo(row)) continue;
     if (pairs.empty() || pairs.back() != PairOf(row)) pairs.push_back(PairOf(row));
@@ -31,7 +31,7 @@ std::vector<BodyPair> FindPairs(const PackedIsland& island) {
 }  // namespace
 
 void BodySystem::Prepare(const PackedIsland& island) {
-  std::vector<BodyPair> pairs = FindPairs(island);
+  Array<BodyPair> pairs = FindPairs(island);
   if (island.bodies != bodies_ || pairs != pairs_) {
     bodies_ = island.bodies;
     pairs_ = std::move(pairs);

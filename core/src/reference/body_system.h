@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cholesky/cholesky.h"
 #include "reference/active_set.h"
 #include "reference/pack.h"
@@ -31,8 +31,8 @@ class BodySystem {
 
  private:
   int bodies_ = -1;
-  std::vector<BodyPair> pairs_;
-  std::vector<int> pair_of_row_;  ///< -1 where a row touches one movable body only
+  Array<BodyPair> pairs_;
+  Array<int> pair_of_row_;  ///< -1 where a row touches one movable body only
   BlockCholesky factor_;
 };
 

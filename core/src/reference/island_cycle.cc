@@ -28,7 +28,6 @@ IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Se
   const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
   if (asked) report_.no_step = NoStep::kEnded;
   guards_ = IsGuarded(settings_);
-  report_.guards.start = GuardState();
   report_.residual_before = MeasureResidual(island_, at_.state);
   if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
 }
@@ -95,6 +94,10 @@ bool IslandCycle::SweepOnce(BudgetMeter* meter) {
     meter->Charge(WorkKind::kSweep, end - begin);
   }
   ++at_.sweeps;
+  if (at_.sweeps == kGuardedSweep && GuardState()) {
+    report_.guards.start = true;
+    return true;
+  }
   if (moved <= settings_.tuning.min_progress) Stop(StopReason::kStationary);
   return !done();
 }

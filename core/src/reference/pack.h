@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "cairn/settings.h"
 #include "problem/islands.h"
 #include "problem/whitening.h"
@@ -32,7 +32,7 @@ struct PackedRow {
 
 /// The constant part of one island.
 struct PackedIsland {
-  std::vector<PackedRow> rows;
+  Array<PackedRow> rows;
   int bodies = 0;   ///< movable ones
   double mass = 0;  ///< of them [kg]
   /// Of each: what u changes it by, and how it moves without impulses as rows see it.
@@ -40,13 +40,13 @@ struct PackedIsland {
     Eigen::Vector3d free, whitening;
     double mass = 0;
   };
-  std::vector<Motion> motions = {};
+  Array<Motion> motions = {};
 };
 
 /// What iterations write. Always consistent: u = G' x, up to the rounding of increments.
 struct IslandState {
-  std::vector<double> x;
-  std::vector<Vector6> u;  ///< bodies + 1; the first belongs to what does not move and stays 0
+  Array<double> x;
+  Array<Vector6> u;  ///< bodies + 1; the first belongs to what does not move and stays 0
 };
 
 struct Bounds {
@@ -54,7 +54,7 @@ struct Bounds {
 };
 
 /// The bounds of a row, for friction from the present impulse of its parent.
-inline Bounds BoundsOf(const PackedRow& row, const std::vector<double>& x) {
+inline Bounds BoundsOf(const PackedRow& row, const Array<double>& x) {
   if (row.parent == kNoRow) return {row.lo, row.hi};
   const double most = x[row.parent] > 0 ? row.friction * x[row.parent] : 0;
   return {-most > row.lo ? -most : row.lo, most < row.hi ? most : row.hi};
@@ -76,12 +76,12 @@ inline void AddScaled(const Vector6& g, double scale, Vector6* u) {
 }
 
 /// G u of one row.
-inline double RelativeVelocity(const PackedRow& row, const std::vector<Vector6>& u) {
+inline double RelativeVelocity(const PackedRow& row, const Array<Vector6>& u) {
   return Dot(row.g_a, u[row.a]) + Dot(row.g_b, u[row.b]);
 }
 
 /// w = G u + E x - target of one row.
-inline double RelativeVelocity(const PackedRow& row, const std::vector<Vector6>& u, double x) {
+inline double RelativeVelocity(const PackedRow& row, const Array<Vector6>& u, double x) {
   return RelativeVelocity(row, u) + row.compliance * x - row.target;
 }
 
@@ -115,9 +115,9 @@ class Packer {
 
   ContactProblem problem_;
   double omega_;
-  std::vector<WhitenedBody> bodies_;
-  mutable std::vector<int> local_;  ///< scratch: problem row or body -> island row or body
-  mutable std::vector<int> local_row_;
+  Array<WhitenedBody> bodies_;
+  mutable Array<int> local_;  ///< scratch: problem row or body -> island row or body
+  mutable Array<int> local_row_;
 };
 
 /// u = G' x, from scratch.

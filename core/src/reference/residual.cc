@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
 #include "problem/validate.h"
@@ -57,7 +58,7 @@ Report MeasureRows(const ContactProblem& problem, std::span<const double> impuls
   const Packer packer(problem, Settings{});
   for (const Island& island : FindIslands(problem)) {
     const PackedIsland packed = packer.Pack(island);
-    IslandState state{.x = {}, .u = std::vector<Vector6>(packed.bodies + 1)};
+    IslandState state{.x = {}, .u = Array<Vector6>(packed.bodies + 1)};
     for (int row : island.rows) state.x.push_back(impulses[row]);
     RecomputeVelocities(packed, &state);
 
@@ -75,10 +76,10 @@ Report MeasureRows(const ContactProblem& problem, std::span<const double> impuls
 }  // namespace
 
 Report Measure(const ContactProblem& problem, std::span<const double> impulses) {
-  std::vector<double> rows(impulses.begin(), impulses.end());
-  std::vector<ContactImpulse> points(problem.points.size());
-  std::vector<TwistImpulse> twists(problem.twists.size());
-  std::vector<float> joint_rows(problem.joint_rows.size());
+  Array<double> rows(impulses.begin(), impulses.end());
+  Array<ContactImpulse> points(problem.points.size());
+  Array<TwistImpulse> twists(problem.twists.size());
+  Array<float> joint_rows(problem.joint_rows.size());
   Impulses given{.rows = rows, .points = points, .twists = twists, .joint_rows = joint_rows};
   const bool rows_only = problem.manifolds.empty() && problem.joints.empty();
   if (!rows_only) given.rows = given.rows.first(std::min(rows.size(), problem.rows.size()));

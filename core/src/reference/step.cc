@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "cairn/detail/memory.h"
 
 namespace cairn {
 namespace {
@@ -15,9 +16,9 @@ bool HasBounds(const PackedRow& row) {
 /// W = 1 / (E + eps d) on free rows, 0 elsewhere. eps d is the proximal term: the step minimises
 /// the energy plus eps d (x - x_start)^2 / 2, because the free rows of a contact face are redundant
 /// and contradict each other.
-std::vector<double> Weights(const PackedIsland& island, const ActiveSet& set,
-                            const StepSettings& settings) {
-  std::vector<double> weights(island.rows.size(), 0.0);
+Array<double> Weights(const PackedIsland& island, const ActiveSet& set,
+                      const StepSettings& settings) {
+  Array<double> weights(island.rows.size(), 0.0);
   for (size_t i = 0; i < island.rows.size(); ++i) {
     const PackedRow& row = island.rows[i];
     if (set[i] != RowSide::kFree) continue;
@@ -36,8 +37,8 @@ void FixRows(const PackedIsland& island, const ActiveSet& set, IslandState* stat
 }
 
 /// H v = rhs in place.
-void SolveBodies(const PackedIsland& island, const BodySystem& system, std::vector<Vector6>* rhs) {
-  std::vector<Vector6d> du(island.bodies);
+void SolveBodies(const PackedIsland& island, const BodySystem& system, Array<Vector6>* rhs) {
+  Array<Vector6d> du(island.bodies);
   for (int body = 0; body < island.bodies; ++body) {
     du[body] = Eigen::Map<const Vector6d>((*rhs)[body + 1].data());
   }
@@ -49,12 +50,12 @@ void SolveBodies(const PackedIsland& island, const BodySystem& system, std::vect
 }
 
 /// One solve for the free rows:  H du = G_F' W r,  x_F += W (r - G_F du)  with  r = -w_F.
-void Refine(const PackedIsland& island, const ActiveSet& set, const std::vector<double>& weights,
+void Refine(const PackedIsland& island, const ActiveSet& set, const Array<double>& weights,
             const BodySystem& system, IslandState* state) {
   FixRows(island, set, state);
   RecomputeVelocities(island, state);
 
-  std::vector<Vector6> rhs(state->u.size(), Vector6{});
+  Array<Vector6> rhs(state->u.size(), Vector6{});
   for (size_t i = 0; i < island.rows.size(); ++i) {
     if (weights[i] == 0) continue;
     const PackedRow& row = island.rows[i];
@@ -77,10 +78,10 @@ void Refine(const PackedIsland& island, const ActiveSet& set, const std::vector<
 /// with eigenvalue l (relative to d) shrinks by eps / (eps + l), and redundant rows drift apart by
 /// what they contradict each other. The solve after which a row leaves its bounds is taken back.
 void RefineWhileSetHolds(const PackedIsland& island, const StepSettings& settings,
-                         const std::vector<double>& weights, const BodySystem& system,
+                         const Array<double>& weights, const BodySystem& system,
                          const ActiveSet& set, IslandState* state) {
   for (int k = 1; k < settings.refinements; ++k) {
-    const std::vector<double> before = state->x;
+    const Array<double> before = state->x;
     ActiveSet shrunk = set;
     Refine(island, set, weights, system, state);
     if (RemoveViolated(island, *state, &shrunk) == 0) continue;
@@ -102,8 +103,7 @@ double JointSpeed(const PackedIsland& island, const IslandState& state) {
 bool IsCondensed(const PackedRow& row) { return !HasBounds(row) && row.compliance == 0; }
 
 /// v := G_J' x_J of the joints
-void JointVelocities(const PackedIsland& island, const IslandState& state,
-                     std::vector<Vector6>* v) {
+void JointVelocities(const PackedIsland& island, const IslandState& state, Array<Vector6>* v) {
   v->assign(state.u.size(), Vector6{});
   for (size_t i = 0; i < island.rows.size(); ++i) {
     const PackedRow& row = island.rows[i];
@@ -115,9 +115,9 @@ void JointVelocities(const PackedIsland& island, const IslandState& state,
 }
 
 /// One solve of  (G_J G_J' + eps D) dx_J = G_J v  for the smallest dx_J that moves bodies by v.
-void AddSmallest(const PackedIsland& island, const std::vector<double>& weights,
-                 const BodySystem& system, const std::vector<Vector6>& v, IslandState* state) {
-  std::vector<Vector6> rhs(v.size(), Vector6{});
+void AddSmallest(const PackedIsland& island, const Array<double>& weights, const BodySystem& system,
+                 const Array<Vector6>& v, IslandState* state) {
+  Array<Vector6> rhs(v.size(), Vector6{});
   for (size_t i = 0; i < island.rows.size(); ++i) {
     if (weights[i] == 0) continue;
     const PackedRow& row = island.rows[i];
@@ -137,16 +137,16 @@ void AddSmallest(const PackedIsland& island, const std::vector<double>& weights,
 /// to be redundant.
 void CondenseJoints(const PackedIsland& island, const StepSettings& settings, BodySystem* system,
                     IslandState* state) {
-  std::vector<double> weights(island.rows.size(), 0.0);
+  Array<double> weights(island.rows.size(), 0.0);
   for (size_t i = 0; i < island.rows.size(); ++i) {
     const PackedRow& row = island.rows[i];
     if (!IsCondensed(row) || row.diagonal <= 0) continue;
     weights[i] = 1 / (settings.proximal_joints * row.diagonal);
   }
   if (!system->Factorise(island, weights)) return;
-  const std::vector<double> before = state->x;
+  const Array<double> before = state->x;
   const double speed = JointSpeed(island, *state);
-  std::vector<Vector6> wanted, now;
+  Array<Vector6> wanted, now;
   JointVelocities(island, *state, &wanted);
   for (size_t i = 0; i < island.rows.size(); ++i) {
     if (weights[i] != 0) state->x[i] = 0;
@@ -169,7 +169,7 @@ StepResult TakeStep(const PackedIsland& island, const StepSettings& settings, Bo
   const IslandState start = *state;
   ActiveSet set = PredictActiveSet(island, *state);
   for (int pass = 0; pass < settings.factorisations; ++pass) {
-    const std::vector<double> weights = Weights(island, set, settings);
+    const Array<double> weights = Weights(island, set, settings);
     ++result.factorisations;
     if (!system->Factorise(island, weights)) {
       *state = start;

@@ -20,7 +20,9 @@ constexpr double kMostSweeps = 150;
 
 BodySystem& SystemOf(IslandMemory* memory) {
   std::shared_ptr<BodySystem>& system = memory->body_system();
-  if (system == nullptr) system = std::make_shared<BodySystem>();
+  if (system == nullptr) {
+    system = std::allocate_shared<BodySystem>(detail::Allocator<BodySystem>());
+  }
   return *system;
 }
 

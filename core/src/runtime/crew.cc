@@ -56,7 +56,7 @@ struct Stage {
 
 /// What helpers see. It lives until the last of them has gone, and nothing else is touched by a
 /// helper that has claimed nothing.
-class Board {
+class Board : public detail::Placed {
  public:
   void Release() {
     if (owners_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
@@ -129,6 +129,7 @@ class Board {
       helpers_.fetch_sub(1);
       return;
     }
+    const detail::MemoryScope scope(memory_);
     const Helper helper{homes_.fetch_add(1, std::memory_order_relaxed) + 1, TakeLane()};
     do {
       HelpWhileOpen(helper);
@@ -218,6 +219,7 @@ class Board {
     for (int unit = begin; unit < end; ++unit) work->Do(stage, unit);
   }
 
+  Memory* const memory_ = detail::MemoryOfThread();  ///< of the crew, and what it takes
   std::atomic<int> owners_{1}, helpers_{0}, most_helpers_{0}, homes_{0};
   std::atomic<int> tasks_{0};  ///< submitted, and not run yet
   std::atomic<std::thread::id> caller_{};
@@ -236,7 +238,7 @@ class Board {
 
 bool StagedWork::GoOn(int) { return true; }
 
-struct Crew::Impl {
+struct Crew::Impl : detail::Placed {
   ~Impl() {
     board->Close();
     board->Release();
@@ -246,6 +248,7 @@ struct Crew::Impl {
   int threads;  ///< that there can be
   Executor* given;
   std::unique_ptr<Executor> own;  ///< made when helpers are called first: small problems need none
+  Memory* const memory = detail::MemoryOfThread();
   Board* board = new Board;
   SpanRecorder* recorder = nullptr;
 };
@@ -262,7 +265,9 @@ Crew& Crew::operator=(Crew&&) noexcept = default;
 
 void Crew::Follow(int threads, Executor* executor) {
   const bool same = impl_->asked == threads && impl_->given == executor;
-  if (!same) *this = Crew(threads, executor);
+  if (same) return;
+  const detail::MemoryScope scope(impl_->memory);  // hosts call this, too
+  *this = Crew(threads, executor);
 }
 
 void Crew::RecordTo(SpanRecorder* recorder) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cairn/detail/memory.h"
 #include "cairn/detail/spans.h"
 #include "cairn/executor.h"
 
@@ -31,7 +32,7 @@ class StagedWork {
 /// by an atomic each, from a home position of their own, so that a helper meets the same units in
 /// every sweep. Completion is counted in units. Hence nobody waits for a helper that was not given
 /// a core, unless it has claimed something.
-class Crew {
+class Crew : public detail::Placed {
  public:
   /// @p threads: the caller included, in [1, 1024]; one starts no others. Without an executor
   /// oneTBB, or std::thread, provides the helpers, as many as there are.

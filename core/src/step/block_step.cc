@@ -230,7 +230,7 @@ void BlockStep<T>::FindTolerances() {
 }
 
 template <class T>
-void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v) {
+void BlockStep<T>::MultiplyTransposed(const Array<LineT>& y, Array<T>* v) {
   std::fill(v->begin(), v->end(), T{0});
   LineT of_pair[simd::kPairLines];
   for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
@@ -250,7 +250,7 @@ void BlockStep<T>::MultiplyTransposed(const std::vector<LineT>& y, std::vector<T
 }
 
 template <class T>
-void BlockStep<T>::Multiply(const std::vector<T>& v, std::vector<LineT>* y) {
+void BlockStep<T>::Multiply(const Array<T>& v, Array<LineT>* y) {
   LineT of_pair[simd::kPairLines] = {};
   for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
     const simd::PairActiveSet<T> set = ActiveSetOf(b);
@@ -299,7 +299,7 @@ void BlockStep<T>::RefineWhileSetHolds(int refinements) {
     sides_before_ = sides_;
     Refine();
     // removing makes those islands open; here that means taking it back
-    const std::vector<char>& phases = phases_before_ = phases_;
+    const Array<char>& phases = phases_before_ = phases_;
     Remove();
     ForIslands([&](int island) {
       if (phases_[island] != phases[island]) phases_[island] = kTakenBack;
@@ -329,7 +329,7 @@ void BlockStep<T>::Remove() {
 }
 
 template <class T>
-void BlockStep<T>::MultiplyWeighted(std::vector<T>* out) {
+void BlockStep<T>::MultiplyWeighted(Array<T>* out) {
   ForBlocks(kernels_.copy_weighted);
   MultiplyTransposed(product_, out);
 }

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "pack/block_pack.h"
 #include "plan/plan.h"
 #include "simd/pairs/pair_active_set.h"
@@ -25,7 +25,7 @@ struct IslandStep {
 /// TakeStep() for islands of a group that is in blocks, each as if it were alone, on numbers of its
 /// own in float or in double precision.
 template <class T>
-class BlockStep {
+class BlockStep : public detail::Placed {
  public:
   explicit BlockStep(simd::Target target)
       : products_(simd::PairProductsFor<T>(target)),
@@ -57,7 +57,7 @@ class BlockStep {
   /// Those of rows that have a weight, as they move bodies now.
   void FindSmallest();
   /// out := G_J' x_J of rows that have a weight
-  void MultiplyWeighted(std::vector<T>* out);
+  void MultiplyWeighted(Array<T>* out);
   void FindJointSpeeds(double StepResult::*speed);
   void Write();
   /// function(island) for those of the group
@@ -77,9 +77,9 @@ class BlockStep {
   void ForBlocks(const Function& function);
   simd::PairActiveSet<T> ActiveSetOf(int block);
   /// v := G' y, by node.
-  void MultiplyTransposed(const std::vector<LineT>& y, std::vector<T>* v);
+  void MultiplyTransposed(const Array<LineT>& y, Array<T>* v);
   /// y := G v
-  void Multiply(const std::vector<T>& v, std::vector<LineT>* y);
+  void Multiply(const Array<T>& v, Array<LineT>* y);
 
   const simd::PairProducts<T>& products_;
   const simd::ActiveSetKernels<T>& kernels_;
@@ -89,14 +89,14 @@ class BlockStep {
   BlockSystem<T>* system_ = nullptr;
   std::span<IslandStep> islands_;
   Deadline* deadline_ = nullptr;
-  bool bounded_ = false;                      ///< some row of the group has bounds
-  std::vector<char> phases_, phases_before_;  ///< by island
+  bool bounded_ = false;                ///< some row of the group has bounds
+  Array<char> phases_, phases_before_;  ///< by island
 
-  std::vector<simd::LaneSettings<T>> lanes_;  ///< by block
-  std::vector<LineT> x_, start_, before_, w_, weights_, product_;
-  std::vector<simd::SideLine> sides_, sides_before_;
-  std::vector<T> u_, du_, wanted_;  ///< six numbers a node
-  std::vector<double> sums_, counts_;
+  Array<simd::LaneSettings<T>> lanes_;  ///< by block
+  Array<LineT> x_, start_, before_, w_, weights_, product_;
+  Array<simd::SideLine> sides_, sides_before_;
+  Array<T> u_, du_, wanted_;  ///< six numbers a node
+  Array<double> sums_, counts_;
 };
 
 extern template class BlockStep<float>;

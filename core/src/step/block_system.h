@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cholesky/front_cholesky.h"
 #include "pack/block_pack.h"
 #include "plan/plan.h"
@@ -19,7 +19,7 @@ namespace cairn {
 /// asks, but it is positive definite however redundant the rows are, and its pattern, the body
 /// graph, does not change with the set.
 template <class T>
-class BlockSystem {
+class BlockSystem : public detail::Placed {
  public:
   explicit BlockSystem(simd::Target target);
 
@@ -77,12 +77,12 @@ class BlockSystem {
   bool prepared_ = false;
   int plan_number_ = -1, group_ = -1;
   int first_slot_ = 0;
-  std::vector<int> bodies_, bodies_now_;  ///< ascending problem indices
-  std::vector<int> node_of_slot_;
-  std::vector<NodePair> pairs_;  ///< of the analysed graph
-  std::vector<NodePair> known_pairs_, all_pairs_;
-  std::vector<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
-  int lanes_ = 0;                  ///< where two do
+  Array<int> bodies_, bodies_now_;  ///< ascending problem indices
+  Array<int> node_of_slot_;
+  Array<NodePair> pairs_;  ///< of the analysed graph
+  Array<NodePair> known_pairs_, all_pairs_;
+  Array<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
+  int lanes_ = 0;            ///< where two do
   double steps_ = 0, expected_steps_ = kExpectedSteps;  ///< of this analysis, and of others
 
   /// Before anything is known: what begins to be piled up goes on so for some frames.

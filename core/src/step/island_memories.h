@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "step/island_memory.h"
 
 namespace cairn {
@@ -31,7 +34,10 @@ class IslandMemories {
     std::int64_t last_frame = 0;
   };
 
-  std::unordered_map<std::uint64_t, Remembered> memories_;
+  using Entry = std::pair<const std::uint64_t, Remembered>;
+  std::unordered_map<std::uint64_t, Remembered, std::hash<std::uint64_t>,
+                     std::equal_to<std::uint64_t>, detail::Allocator<Entry>>
+      memories_;
   std::int64_t frame_ = 1;
 };
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cairn/detail/memory.h"
 #include "cairn/settings.h"
 #include "step/block_system.h"
 #include "step/step_odds.h"
@@ -12,9 +13,14 @@ namespace cairn {
 
 class BodySystem;
 
+/// Of a factorisation: multiply-adds, entries of the factor, and bodies, 0 if there was none.
+struct FactorSize {
+  double flops = 0, nonzeros = 0, bodies = 0;
+};
+
 /// What the solver remembers of an island from frame to frame: the analysed system, the proximal
 /// term that worked, and whether steps pay.
-class IslandMemory {
+class IslandMemory : public detail::Placed {
  public:
   StepSettings Step(const Settings& settings) const;
 
@@ -36,10 +42,9 @@ class IslandMemory {
   void SawJoints(const StepResult& result);
   bool condenses_joints() const { return joint_level_ > 0; }
 
-  /// What a factorisation and its step last cost here, for each row, in the units of the caller; 0
-  /// if that is not known.
-  double price_of_row() const { return price_of_row_; }
-  void RememberPrice(double of_row) { price_of_row_ = of_row; }
+  /// The last factor that was priced here.
+  const FactorSize& factor_size() const { return factor_size_; }
+  void Remember(const FactorSize& size) { factor_size_ = size; }
 
   /// Of blocks under a budget: what steps and sweeps gain here.
   StepOdds& odds() { return odds_; }
@@ -59,7 +64,7 @@ class IslandMemory {
   StepOdds odds_;
   double softening_ = 1;  ///< factor on Tuning::proximal
   double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
-  double price_of_row_ = 0;
+  FactorSize factor_size_;
   int strikes_ = 0;                   ///< rejections in a row
   int pause_ = 0;                     ///< opportunities still to be passed over
   int guards_ = 0, guard_pause_ = 0;  ///< how often of late, and likewise after one

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "cairn/settings.h"
 #include "pack/block_frame.h"
 #include "sweep/block_sweep.h"
@@ -81,6 +81,11 @@ inline bool IsFlung(const IslandMotion& before, const IslandMotion& after, doubl
 /// sweeps wants the start, and friction that is held is no minimum of anything.
 bool IsGuarded(const Settings& settings);
 
+/// Sweeps after which the start is judged. Where a point of contact was lost with what it carried,
+/// the rest of a good start is worth less than none, and one sweep mends that: scaled down at once,
+/// a tower would lose all of its warm start.
+inline constexpr int kGuardedSweep = 3;
+
 /// Merits of islands in blocks, the same for an island whatever shares its lanes.
 class IslandMerits {
  public:
@@ -98,19 +103,19 @@ class IslandMerits {
   /// Where squares of a group are.
   double* SquaresOf(const Group& group);
 
-  std::vector<Merit> merits_;
+  Array<Merit> merits_;
   /// Bring the largest number of a sum to so many bits, by island.
   struct Scale {
     double gain = 0, square = 0;
   };
-  std::vector<Scale> scales_;
+  Array<Scale> scales_;
   /// By lane of all blocks; group by group, squares by lane and then those of bodies.
-  std::vector<double> gains_, squares_;
+  Array<double> gains_, squares_;
   struct OfBlock {
     std::uint32_t without_zero = 0;  ///< lanes of rows that cannot be 0
     bool soft = false;               ///< squares of its lanes may be above 0
   };
-  std::vector<OfBlock> of_blocks_;
+  Array<OfBlock> of_blocks_;
 };
 
 /// Multiplies impulses and velocity changes of each island by its factor; 0 leaves nothing of what

@@ -3,8 +3,8 @@
 
 #include <compare>
 #include <span>
-#include <vector>
 
+#include "cairn/detail/memory.h"
 #include "pack/block_frame.h"
 #include "runtime/crew.h"
 #include "sweep/block_sweep.h"
@@ -45,22 +45,22 @@ class Nncg {
   simd::Momentum& MomentumOf(int island) { return momenta_[static_cast<size_t>(island) + 1]; }
   /// One number for each part of the state.
   struct State {
-    std::vector<simd::Line> x;
-    std::vector<simd::BodyLane> bodies;
+    Array<simd::Line> x;
+    Array<simd::BodyLane> bodies;
   };
 
   /// How islands go on along their directions; the first one is of what belongs to none, and does
   /// not move.
-  std::vector<simd::Momentum> momenta_;
-  std::vector<double> energies_;  ///< by island, of the last sweep; 0 if there was none
-  std::vector<int> island_of_slot_;
+  Array<simd::Momentum> momenta_;
+  Array<double> energies_;  ///< by island, of the last sweep; 0 if there was none
+  Array<int> island_of_slot_;
   /// Rows of an island do not take part in further sweeps than that.
   struct End {
     int sweeps, island;
     friend auto operator<=>(const End&, const End&) = default;
   };
-  std::vector<End> ends_;        ///< of the plan
-  std::vector<int> newest_end_;  ///< by island, while ends are looked for
+  Array<End> ends_;        ///< of the plan
+  Array<int> newest_end_;  ///< by island, while ends are looked for
   int plan_number_ = -1;
   bool known_ = false;  ///< last_ is a state of this frame
   State last_, direction_;

@@ -93,6 +93,29 @@ TEST(Contacts, LetGapsCloseAndTakeDepthBack) {
   EXPECT_FLOAT_EQ(BiasOf(options, 0.5), 3);
 }
 
+// Of 5 cm below the slop a fifth, and no more than 3 m/s for 0.01 s.
+TEST(Contacts, SayHowDeepTheyAre) {
+  const std::array bodies{Body{.inv_mass = 1}};
+  Contacts contacts({.slop = 0.01, .erp = 0.2, .max_push = 3});
+  const auto add = [&contacts](double depth) {
+    contacts.Add({.body_a = 0}, std::array{TouchPoint{.depth = depth}});
+  };
+  contacts.Begin({bodies, 0.01});
+  add(-0.05);
+  EXPECT_EQ(contacts.deepest().largest, 0);
+  add(0.06);
+  add(0.02);
+  EXPECT_EQ(contacts.deepest().largest, 0.06);
+  EXPECT_NEAR(contacts.deepest().taken_back, 0.01, 1e-12);
+  add(0.5);
+  EXPECT_EQ(contacts.deepest().largest, 0.5);
+  EXPECT_NEAR(contacts.deepest().taken_back, 0.03, 1e-12);
+  contacts.Begin({bodies, 0.01});
+  add(0.005);
+  EXPECT_EQ(contacts.deepest().largest, 0.005);
+  EXPECT_EQ(contacts.deepest().taken_back, 0);
+}
+
 TEST(Contacts, BounceFromTheSpeedThatTheyHaveWhereTheGapCloses) {
   const ContactOptions options{.min_bounce = 1};
   const auto falls = [](double speed) { return Velocity{.linear = {0, -speed, 0}}; };

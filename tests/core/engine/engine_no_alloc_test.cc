@@ -41,12 +41,20 @@ void RunFrames(const Settings& settings, double depth) {
       const int i = (k + frame) % kBodies;
       const std::array points{TouchPoint{.depth = depth, .feature = 1},
                               TouchPoint{.position = {1, 0, 0}, .depth = depth}};
-      contacts.Add({.body_a = i, .centre_a = {0, 0.5, 0}, .id = bodies[i].id}, points);
+      contacts.Add({.body_a = i,
+                    .body_b = i % 8 == 0 ? kWorld : i - 1,  // towers of eight
+                    .centre_a = {0, 0.5, 0},
+                    .centre_b = {0, -0.5, 0},
+                    .id = bodies[i].id},
+                   points);
       if (k % 2 == 0) joints.Add(HingeJoint({.max_motor_force = 1}), {.body = i}, {}, bodies[i].id);
     }
     solver.Solve(ProblemOf(input, contacts, joints), StartOf(&contacts, &joints), velocities,
                  &report);
     ASSERT_TRUE(report.ok());
+    if (settings.step_policy == StepPolicy::kAlways) {
+      ASSERT_GT(report.steps_accepted, 0);
+    }
   };
   for (int frame = 0; frame < 2 * kBodies; ++frame) step(frame);
   const long before = test::NewCalls();
@@ -57,6 +65,10 @@ void RunFrames(const Settings& settings, double depth) {
 TEST(EngineNoAlloc, HelpersAndSweepsUseMemoryAgain) { RunFrames({.steps = false}, 0); }
 
 TEST(EngineNoAlloc, RelaxationDoesSo) { RunFrames({.steps = false, .relax = true}, 0.1); }
+
+TEST(EngineNoAlloc, StepsDoSoWhileTheGraphIsTheSame) {
+  RunFrames({.max_sweeps = 20, .tolerance = 0, .step_policy = StepPolicy::kAlways}, 0.1);
+}
 
 TEST(EngineNoAlloc, TheInterfaceOfCDoesSo) {
   test::ManifoldScene scene = test::ManifoldTower(20);

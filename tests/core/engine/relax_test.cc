@@ -382,7 +382,8 @@ TEST(Relax, StaysInABudgetOfWork) {
     world.solver.settings().budget = Budget::Work(work);
     world.things.push_back({.position = {0, kRadius - 0.03, 0}});
     world.Step([](SmallWorld* w) { Touches(0, w); });
-    EXPECT_LE(world.report.work, std::max<std::int64_t>(work, 2 * 2 * 3)) << work;
+    // a sweep that is begun in time is finished: three rows
+    EXPECT_LE(world.report.work, std::max<std::int64_t>(work + 3, 2 * 2 * 3)) << work;
   }
 }
 

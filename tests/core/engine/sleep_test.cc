@@ -57,6 +57,30 @@ TEST(Sleep, IslandsKnowTheirFastestBody) {
   }
 }
 
+TEST(Sleep, BodiesKnowTheirIsland) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
+    for (const int substeps : {1, 2}) {
+      Gliders world;
+      world.solver.settings().path = path;
+      world.solver.settings().substeps = substeps;
+      for (std::uint64_t id = 1; id <= 5; ++id) world.Add({}, id);
+      world.Join(3, 0);
+      world.Join(1, kWorld);
+      world.Solve();
+      const Array<int>& of = world.report.island_of;
+      ASSERT_EQ(of.size(), 5u);
+      ASSERT_EQ(world.report.islands.size(), 2u);
+      EXPECT_EQ(of[2], -1);
+      EXPECT_EQ(of[4], -1);
+      EXPECT_EQ(of[3], of[0]);
+      EXPECT_NE(of[1], of[0]);
+      EXPECT_EQ(world.island(0).bodies, 2);
+      EXPECT_EQ(world.island(1).bodies, 1);
+      EXPECT_EQ(world.island(1).first_body, 1);
+    }
+  }
+}
+
 TEST(Sleep, SpeedIsThatAfterTheStep) {
   Gliders world;
   world.Add({}, 1);

@@ -122,6 +122,19 @@ struct Bad {
   void (*spoil)(ManifoldScene*);
 };
 
+TEST(Joint, ThatIsRefusedIsNamedByItsField) {
+  const auto said = [](void (*spoil)(Joint*)) {
+    ManifoldScene scene = test::RandomManifolds(10, 20, 2);
+    test::AddJoints(20, 2, &scene);
+    spoil(&scene.joints[7]);
+    std::vector<Velocity> velocities(scene.bodies.size());
+    return Describe(Solve(Settings{}, &scene, &velocities));
+  };
+  EXPECT_EQ(said([](Joint* j) { j->rows = 33; }), "joint 7: rows is 33, must be 1 to 32");
+  EXPECT_EQ(said([](Joint* j) { j->first_row = -3; }),
+            "joint 7: first_row is -3, must be 0 to problem.joint_rows.size() - rows");
+}
+
 class BadJoint : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadJoint, IsRefusedAndNothingIsWritten) {

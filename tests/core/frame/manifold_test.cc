@@ -328,6 +328,23 @@ TEST(Manifold, IsRefusedWithABounceSpeedThatIsNoSpeed) {
   }
 }
 
+TEST(Manifold, ThatIsRefusedIsNamedByItsField) {
+  const auto said = [](void (*spoil)(Manifold*)) {
+    ManifoldScene scene = test::RandomManifolds(10, 20, 2);
+    spoil(&scene.manifolds[7]);
+    return Describe(Solve(Settings{}, scene).report);
+  };
+  EXPECT_EQ(said([](Manifold* m) { m->points = 5; }), "manifold 7: points is 5, must be 1 to 4");
+  EXPECT_EQ(said([](Manifold* m) { m->tangents = -1; }),
+            "manifold 7: tangents is -1, must be 0 to 2");
+  EXPECT_EQ(said([](Manifold* m) { m->first_point = 2000; }),
+            "manifold 7: first_point is 2000, must be 0 to problem.points.size() - points");
+  EXPECT_EQ(said([](Manifold* m) { m->twists = true; }),
+            "manifold 7: twists is 1, must be 0 without problem.twists");
+  EXPECT_EQ(said([](Manifold* m) { m->body_a = 10; }),
+            "manifold 7: " + std::string(Describe(Status::kNoSuchBody)));
+}
+
 struct Bad {
   const char* name;
   Status status;

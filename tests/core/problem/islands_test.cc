@@ -31,7 +31,7 @@ TEST(FindIslands, JoinsBodiesThatShareRowsInTheOrderOfTheProblem) {
   join(7, 3);
   join(4, 7);
 
-  const std::vector<Island> islands = FindIslands(scene.problem());
+  const Array<Island> islands = FindIslands(scene.problem());
   ASSERT_EQ(islands.size(), 4u);
   EXPECT_THAT(islands[0].bodies, ElementsAre(0, 3, 5));
   EXPECT_THAT(islands[0].rows, ElementsAre(1, 4, 5));

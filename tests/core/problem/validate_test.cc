@@ -320,6 +320,28 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
   EXPECT_EQ(FindBadSetting(Settings{}).name, nullptr);
 }
 
+// Constants need a value in every field: without one this does not compile.
+TEST(Defaults, AreThereForAllThatAnEngineFillsIn) {
+  constexpr ContactPoint point;
+  constexpr ContactImpulse impulse;
+  constexpr ContactTwist twist;
+  constexpr TwistImpulse twist_impulse;
+  constexpr ContactMotion motion;
+  constexpr JointRow row;
+  constexpr Joint joint;
+  constexpr Manifold manifold;
+  EXPECT_EQ(point.bias + point.friction + impulse.normal + twist.rolling, 0);
+  EXPECT_EQ(twist_impulse.spinning + motion.free_velocity[0], 0);
+  EXPECT_EQ(row.lo, -kInfinity);
+  EXPECT_EQ(row.hi, kInfinity);
+  EXPECT_EQ(joint.body_a, kWorld);
+  EXPECT_EQ(joint.body_b, kWorld);
+  EXPECT_EQ(joint.rows, 1);
+  EXPECT_EQ(manifold.body_a, kWorld);
+  EXPECT_EQ(manifold.body_b, kWorld);
+  EXPECT_EQ(manifold.points, 1);
+}
+
 TEST(Describe, SaysWhichSettingIsOutOfWhichRange) {
   const auto said = [](const Settings& settings) {
     return Describe(test::Solve(settings, GoodScene()).report);

@@ -15,7 +15,7 @@ constexpr RowSide kFree = RowSide::kFree, kLo = RowSide::kLo, kHi = RowSide::kHi
 /// Up to six rows, each with its present impulse.
 struct SixAxes {
   PackedIsland island{.rows = {}, .bodies = 1};
-  IslandState state{.x = {}, .u = std::vector<Vector6>(2, Vector6{})};
+  IslandState state{.x = {}, .u = Array<Vector6>(2, Vector6{})};
 
   int Add(double lo, double hi, double target, double x) {
     const size_t axis = island.rows.size();

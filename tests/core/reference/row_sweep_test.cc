@@ -77,9 +77,9 @@ TEST(SweepRows, ReportTheLargestVelocityTheyMoved) {
   IslandState state = Packer::Start(packed, island, std::vector<double>(2, 0.0));
 
   EXPECT_EQ(SweepRows(packed, {0, 1, 0}, detail::LiftedFriction::kRelease, &state), 0.125);
-  EXPECT_EQ(state.x, (std::vector<double>{0.03125, 0}));
+  EXPECT_EQ(state.x, (Array<double>{0.03125, 0}));
   EXPECT_EQ(SweepRows(packed, {0, 2, 0}, detail::LiftedFriction::kRelease, &state), 0.5);
-  EXPECT_EQ(state.x, (std::vector<double>{0.03125, -0.125}));
+  EXPECT_EQ(state.x, (Array<double>{0.03125, -0.125}));
   EXPECT_EQ(SweepRows(packed, {0, 2, 0}, detail::LiftedFriction::kRelease, &state), 0);
 }
 

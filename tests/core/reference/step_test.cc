@@ -166,7 +166,7 @@ TEST(TakeStep, TakesBackARefinementAfterWhichARowLeavesItsBounds) {
       return StepSettings{
           .proximal = 0.3, .proximal_joints = 0.1, .factorisations = 3, .refinements = refinements};
     };
-    std::vector<std::vector<double>> results;
+    std::vector<Array<double>> results;
     for (int refinements : {1, 2, 3, 12, 13}) {
       EXPECT_LT(StepError(scene, 20, settings(refinements)), 1e-9) << seed;
       Packed packed(scene, 20);

@@ -202,7 +202,7 @@ TEST(Meter, IsLateWhereWhatIsSetAsideLeavesNothing) {
   meter.SetAside(0);
   EXPECT_FALSE(meter.Late(99));
   EXPECT_FALSE(meter.spent()) << "nothing was done";
-  EXPECT_EQ(record.fits, (std::vector<std::uint8_t>{0, 1, 0, 1, 0}));
+  EXPECT_EQ(record.fits, (Array<std::uint8_t>{0, 1, 0, 1, 0}));
 
   // again, without a clock
   BudgetMeter again(record, &prices);

@@ -14,6 +14,7 @@
 #include "cairn/detail/eigen.h"
 #include "cairn/lcp/solver.h"
 #include "tests/core/support/block_problems.h"
+#include "tests/core/support/counting_memory.h"
 #include "tests/core/support/manifold_problems.h"
 #include "tests/core/support/test_clock.h"
 #include "tests/core/support/watched_new.h"
@@ -67,21 +68,30 @@ std::vector<ManifoldScene> Frames() {
   return frames;
 }
 
-/// Solves a frame whose allocation number @p call fails, if it gets that far. An exception leaves
-/// the outputs as they were.
-bool Survives(Solver* solver, ManifoldScene scene, long call) {
+/// Where memory ends, and when: operator new, or a memory of one's own.
+struct EndOfMemory {
+  test::CountingMemory* memory = nullptr;
+  long call = -1;  ///< that fails; none below 0
+
+  void Begin() const { memory != nullptr ? memory->FailAfter(call) : FailNewAfter(call); }
+  void End() const { memory != nullptr ? memory->FailAfter(-1) : FailNewAfter(-1); }
+};
+
+/// Solves a frame with one allocation that fails, if it gets that far. An exception leaves the
+/// outputs as they were.
+bool Survives(Solver* solver, ManifoldScene scene, const EndOfMemory& failure) {
   std::vector<Velocity> velocities(scene.bodies.size());
   for (Velocity& velocity : velocities) View(velocity.linear).setConstant(7);
   const ManifoldScene before = scene;
   Report report;
   try {
-    FailNewAfter(call);
+    failure.Begin();
     solver->Solve(scene.problem(), scene.impulses(), velocities, &report);
-    FailNewAfter(-1);
+    failure.End();
     EXPECT_TRUE(report.ok());
     return true;
   } catch (const std::bad_alloc&) {
-    FailNewAfter(-1);
+    failure.End();
   }
   EXPECT_EQ(scene.row_impulses, before.row_impulses);
   EXPECT_EQ(scene.joint_impulses, before.joint_impulses);
@@ -90,14 +100,14 @@ bool Survives(Solver* solver, ManifoldScene scene, long call) {
   return false;
 }
 
-void FailEverywhere(const Settings& settings) {
+void FailEverywhere(const Settings& settings, test::CountingMemory* memory = nullptr) {
   const std::vector<ManifoldScene> frames = Frames();
   int failures = 0;
   for (size_t failing = 0; failing < frames.size(); ++failing) {
     for (long call = 0;; ++call) {
-      Solver solver(settings), fresh(settings);
+      Solver solver(settings, memory), fresh(settings);
       for (size_t i = 0; i < failing; ++i) Solve(&solver, frames[i]);
-      if (Survives(&solver, frames[failing], call)) break;
+      if (Survives(&solver, frames[failing], {memory, call})) break;
       ++failures;
       for (size_t i = failing; i < frames.size(); ++i) {
         ASSERT_TRUE(Solve(&solver, frames[i]) == Solve(&fresh, frames[i]))
@@ -110,6 +120,23 @@ void FailEverywhere(const Settings& settings) {
 
 TEST(NoMemory, LeavesASolverOfBlocksAsNew) {
   FailEverywhere({.max_sweeps = 20, .tolerance = 0, .step_policy = StepPolicy::kAlways});
+}
+
+TEST(NoMemory, OfOnesOwnLeavesASolverAsNew) {
+  for (const Path path : {Path::kFast, Path::kReference}) {
+    test::CountingMemory memory;
+    FailEverywhere(
+        {.path = path, .max_sweeps = 12, .tolerance = 0, .step_policy = StepPolicy::kAlways},
+        &memory);
+    EXPECT_EQ(memory.blocks(), 0);
+  }
+}
+
+TEST(NoMemory, OfOnesOwnLeavesASolverOfPartsAsNew) {
+  test::CountingMemory memory;
+  memory.FailByThrowing();
+  FailEverywhere({.max_sweeps = 4, .substeps = 2, .relax = true, .tolerance = 0}, &memory);
+  EXPECT_EQ(memory.blocks(), 0);
 }
 
 TEST(NoMemory, LeavesASolverUnderABudgetOfTimeAsNew) {

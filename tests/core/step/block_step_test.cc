@@ -66,7 +66,7 @@ template <class T>
 double StepError(const Scene& scene, int sweeps) {
   const std::vector<double> start = Swept(scene, sweeps);
   Packed packed(scene, 0);
-  packed.state.x = start;
+  packed.state.x.assign(start.begin(), start.end());
   RecomputeVelocities(packed.island, &packed.state);
   BodySystem system;
   system.Prepare(packed.island);

@@ -53,7 +53,7 @@ Eigen::VectorXd Flatten(const std::vector<Velocity>& velocities) {
   return flat;
 }
 
-Eigen::VectorXd ToVector(const std::vector<double>& x) {
+Eigen::VectorXd ToVector(std::span<const double> x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 

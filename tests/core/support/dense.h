@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "problems.h"
 
@@ -20,7 +21,7 @@ Dense MakeDense(const Scene& scene);
 
 /// Linear before angular, body after body.
 Eigen::VectorXd Flatten(const std::vector<Velocity>& velocities);
-Eigen::VectorXd ToVector(const std::vector<double>& x);
+Eigen::VectorXd ToVector(std::span<const double> x);
 
 /// x_i cut down to the bounds of row i, those of friction from the present impulse of its parent.
 double Project(const Scene& scene, const Eigen::VectorXd& x, int i, double value);

@@ -17,7 +17,7 @@ struct Packed {
   IslandState state;
 
   Packed(const Scene& scene, int sweeps) {
-    const std::vector<Island> islands = FindIslands(scene.problem());
+    const Array<Island> islands = FindIslands(scene.problem());
     EXPECT_EQ(islands.size(), 1u);
     island = Packer(scene.problem(), Settings{}).Pack(islands[0]);
     state = Packer::Start(island, islands[0], std::vector<double>(scene.rows.size(), 0.0));

@@ -6,12 +6,15 @@
 #include <cstdlib>
 #include <new>
 
+#include "cairn/detail/memory.h"
+
 namespace {
 
-std::atomic<long> calls{0}, failing{-1};
+std::atomic<long> calls{0}, passing{0}, failing{-1};
 
 void* Allocate(std::size_t size, std::size_t alignment) {
   if (calls.fetch_add(1) == failing.load()) throw std::bad_alloc();
+  if (cairn::detail::MemoryOfThread() != nullptr) passing.fetch_add(1);
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   void* const memory = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
   if (memory == nullptr) throw std::bad_alloc();
@@ -38,6 +41,7 @@ void* Allocate(std::size_t size, std::size_t alignment) {
 namespace cairn::test {
 
 long NewCalls() { return calls.load(); }
+long NewCallsPastMemory() { return passing.load(); }
 
 void FailNewAfter(long count) { failing = count < 0 ? -1 : calls.load() + count; }
 

@@ -6,6 +6,8 @@ namespace cairn::test {
 
 /// Calls of operator new so far, on all threads.
 long NewCalls();
+/// Of these, calls from within a Solve(), where a Solver takes its memory from elsewhere.
+long NewCallsPastMemory();
 /// From now on lets so many calls of operator new succeed, on all threads, and the next one fail; a
 /// negative number lets all succeed.
 void FailNewAfter(long calls);

@@ -6,7 +6,7 @@
    Structs are plain data. Get each from its cairnDefault...() function, then set what differs: what
    a later version adds has its default then. Arrays are a pointer and a count; 0 of something needs
    no pointer. Nothing is kept of what a pointer points to once a function has returned, but for
-   CairnSettings::jobs. No exception leaves a function. */
+   CairnSettings::jobs and memory. No exception leaves a function. */
 #ifndef CAIRN_CAIRN_H
 #define CAIRN_CAIRN_H
 
@@ -158,6 +158,15 @@ typedef struct CairnJobs {
   void* context;
 } CairnJobs;
 
+/* Memory of your own: allocate() gives bytes at a multiple of alignment, a power of two, or NULL;
+   free() is told both again. Called on all threads of the solver, at the same time where there are
+   several. It must outlive the solver, and what jobs were given. */
+typedef struct CairnMemory {
+  void* (*allocate)(size_t bytes, size_t alignment, void* context);
+  void (*free)(void* memory, size_t bytes, size_t alignment, void* context);
+  void* context;
+} CairnMemory;
+
 typedef enum CairnMethod { cairnPgs, cairnPsor, cairnPgsSm } CairnMethod;
 typedef enum CairnPath { cairnAuto, cairnFast, cairnReference } CairnPath;
 typedef enum CairnBudgetKind { cairnUnlimited, cairnTime, cairnWork } CairnBudgetKind;
@@ -171,10 +180,11 @@ typedef struct CairnSettings {
   int32_t substeps; /* parts that the step is cut into, 1 to 64; see cairnMeanVelocities() */
   double tolerance, quietSpeed; /* [m/s]; of CairnIsland::quiet, [m/s] and [rad/s] */
   CairnBudgetKind budgetKind;
-  int64_t budget;    /* nanoseconds, or units of work: 1 = 1 row relaxed */
-  int32_t minSweeps; /* even if the budget is spent; -1: by the budget */
-  int32_t threads;   /* the caller's included; results do not depend on them */
-  CairnJobs jobs;    /* submit NULL: oneTBB, if built with it, or threads */
+  int64_t budget;     /* nanoseconds, or units of work: 1 = 1 row relaxed */
+  int32_t minSweeps;  /* even if the budget is spent; -1: by the budget */
+  int32_t threads;    /* the caller's included; results do not depend on them */
+  CairnJobs jobs;     /* submit NULL: oneTBB, if built with it, or threads */
+  CairnMemory memory; /* all that a solver keeps; allocate NULL: operator new. Only at creation */
 } CairnSettings;
 
 typedef enum CairnStop {
@@ -253,12 +263,14 @@ typedef struct CairnSolver CairnSolver;
 CAIRN_API CairnStatus cairnCreateSolver(CairnLayout layout, const CairnSettings* settings,
                                         CairnSolver** solver);
 CAIRN_API void cairnDestroySolver(CairnSolver* solver); /* NULL: nothing happens */
+/* Memory that it holds, and the most that it ever held, unless most is NULL. */
+CAIRN_API size_t cairnBytes(const CairnSolver* solver, size_t* most);
 CAIRN_API CairnStatus cairnSetSettings(CairnSolver* solver, const CairnSettings* settings);
 /* Forgets what was learnt: the next step is that of a new solver. */
 CAIRN_API void cairnReset(CairnSolver* solver);
 
 /* Solves one step. report may be NULL. A problem no larger than an earlier one is solved without
-   allocating on CAIRN_PATH_FAST, subspace steps apart. */
+   allocating on cairnFast, but for a step on contacts and joints of other bodies than before. */
 CAIRN_API CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
                                  const CairnSolution* solution, CairnReport* report);
 

@@ -100,7 +100,8 @@ void SparseCholesky::Attach(const SparseMatrix& m) {
   impl_->analysed = false;
   impl_->begins.assign(m.outerIndexPtr(), m.outerIndexPtr() + m.outerSize() + 1);
   impl_->rows.assign(m.innerIndexPtr(), m.innerIndexPtr() + m.nonZeros());
-  impl_->order = MinimumDegreeOrder(m);
+  impl_->order.resize(m.outerSize());
+  MinimumDegreeOrder(m, impl_->order);
 }
 
 void SparseCholesky::AttachLike(const SparseCholesky& other) {
