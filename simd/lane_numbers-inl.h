@@ -45,11 +45,19 @@ HWY_INLINE void MoveLanes(const Momentum* momenta, const std::int32_t* of_lane, 
   }
 }
 
-inline void MoveLines(const Momentum* momenta, const std::int32_t* of_lane, int lanes, int count,
-                      const Moving<Line>& numbers) {
+inline void MoveBlocks(const Momentum* momenta, const PairBlock* blocks,
+                       const std::int32_t* of_lane, int count, const Moving<Line>& numbers) {
   const FlushDenormals flush;
-  if (lanes <= 4) return MoveLanes<4>(momenta, of_lane, lanes, count, numbers);
-  MoveLanes<kLanes>(momenta, of_lane, lanes, count, numbers);
+  for (int b = 0; b < count; ++b, of_lane += kLanes) {
+    const int lanes = blocks[b].lanes, rows = blocks[b].row_count;
+    const Moving<Line> of_block{numbers.now + blocks[b].x, numbers.last + blocks[b].x,
+                                numbers.direction + blocks[b].x};
+    if (lanes <= 4) {
+      MoveLanes<4>(momenta, of_lane, lanes, rows, of_block);
+    } else {
+      MoveLanes<kLanes>(momenta, of_lane, lanes, rows, of_block);
+    }
+  }
 }
 
 inline void MoveBodies(const Momentum* momenta, const std::int32_t* of_body, int count,
@@ -183,8 +191,8 @@ inline double AddRounded(const double* numbers, int count, double scale) {
   return all;
 }
 
-constexpr LaneKernels kKernels = {MoveLines, MoveBodies,  FindLargest, AddEnergies,
-                                  FindGains, FindSquares, FindMost,    AddRounded};
+constexpr LaneKernels kKernels = {MoveBlocks, MoveBodies,  FindLargest, AddEnergies,
+                                  FindGains,  FindSquares, FindMost,    AddRounded};
 
 }  // namespace numbers
 }  // namespace HWY_NAMESPACE

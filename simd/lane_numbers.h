@@ -23,11 +23,12 @@ struct Moving {
 
 /// Passes over numbers of lanes that relax nothing. Same bits on every target.
 struct LaneKernels {
-  /// now += beta direction, direction := keep (now - last), last := now: so many lines, their first
-  /// @p lanes lanes. Others may move or not.
-  /// @param momenta  momenta[of_lane[l]] is that of lane l
-  void (*move_lines)(const Momentum* momenta, const std::int32_t* of_lane, int lanes, int count,
-                     const Moving<Line>& numbers);
+  /// now += beta direction, direction := keep (now - last), last := now: impulses of so many
+  /// blocks. Lanes that are not used may move or not.
+  /// @param momenta  momenta[of_lane[l]] is that of lane l; kLanes for each block
+  /// @param numbers  where PairBlock::x counts from
+  void (*move_blocks)(const Momentum* momenta, const PairBlock* blocks, const std::int32_t* of_lane,
+                      int count, const Moving<Line>& numbers);
   /// The same for so many bodies. @param momenta  momenta[of_body[i]] is that of body i
   void (*move_bodies)(const Momentum* momenta, const std::int32_t* of_body, int count,
                       const Moving<BodyLane>& numbers);

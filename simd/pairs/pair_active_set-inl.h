@@ -206,7 +206,7 @@ std::uint32_t RemoveViolated(const PairActiveSet<T>& set) {
   PredictedBounds<T> predicted(set);
   BoundLines<T> bounds;
   SideLine before;
-  std::uint32_t removed = 0;
+  std::int32_t crossed[kLanes] = {};
   ForRows(set.block, set.lines, [&](int i, const RowView& row) {
     if (row.shape.bound == RowBound::kFree) return;
     predicted.Find(row, &bounds);
@@ -219,10 +219,10 @@ std::uint32_t RemoveViolated(const PairActiveSet<T>& set) {
       const bool looked_at = before.lane[l] == RowSide::kFree && set.lanes.taken.lane[l] != 0;
       return looked_at ? left : before.lane[l];
     });
-    for (int l = 0; l < kLanes; ++l) {
-      removed |= std::uint32_t{set.sides[i].lane[l] != before.lane[l]} << l;
-    }
+    for (int l = 0; l < kLanes; ++l) crossed[l] |= set.sides[i].lane[l] != before.lane[l] ? 1 : 0;
   });
+  std::uint32_t removed = 0;
+  for (int l = 0; l < kLanes; ++l) removed |= static_cast<std::uint32_t>(crossed[l]) << l;
   return removed;
 }
 

@@ -61,25 +61,49 @@ struct State {
 // The first momentum is of lanes and slots that belong to no island.
 const std::vector<Momentum> kWays = {{0, 0}, {0.25f, 1}, {0.9f, 1}, {0, 0}, {0.5f, 1}};
 
-TEST(LaneNumbers, MoveLinesOfEveryLaneInItsWay) {
+TEST(LaneNumbers, MoveBlocksInTheWayOfEveryLane) {
+  // rows and lanes of each; what lies between blocks is left alone
+  constexpr std::pair<int, int> kBlocks[] = {{0, 16}, {1, 16}, {12, 16}, {12, 13},
+                                             {12, 8}, {12, 5}, {12, 4},  {12, 1}};
+  constexpr int kBetween = 1;
+  std::vector<PairBlock> blocks;
+  int lines = 0;
+  for (const auto& [rows, lanes] : kBlocks) {
+    PairBlock& block = blocks.emplace_back();
+    block.x = static_cast<std::uint32_t>(lines);
+    block.row_count = rows;
+    block.lanes = lanes;
+    lines += rows + kBetween;
+  }
+  const int count = static_cast<int>(blocks.size());
   for (const Target target : SupportedTargets()) {
-    for (const auto& [count, lanes] :
-         {std::pair{0, 16}, {1, 16}, {12, 16}, {12, 13}, {12, 8}, {12, 5}, {12, 4}, {12, 1}}) {
-      Random random(3);
-      State<Line> state(static_cast<size_t>(count), &random);
-      State<Line> expected = state;
-      std::int32_t of_lane[kLanes];
-      for (int l = 0; l < kLanes; ++l) of_lane[l] = l < lanes ? random.Index(4) : -1;
-      for (int i = 0; i < count * kLanes; ++i) {
-        expected.Move(static_cast<size_t>(i), kWays[static_cast<size_t>(of_lane[i % kLanes] + 1)]);
+    Random random(3);
+    State<Line> state(static_cast<size_t>(lines), &random);
+    State<Line> expected = state;
+    std::vector<std::int32_t> of_lane(static_cast<size_t>(count * kLanes), -1);
+    for (int b = 0; b < count; ++b) {
+      const PairBlock& block = blocks[static_cast<size_t>(b)];
+      const auto island = [&](int l) -> std::int32_t& {
+        return of_lane[static_cast<size_t>(b * kLanes + l)];
+      };
+      for (int l = 0; l < block.lanes; ++l) island(l) = random.Index(4);
+      const int first = static_cast<int>(block.x) * kLanes;
+      for (int i = 0; i < block.row_count * kLanes; ++i) {
+        if (i % kLanes >= block.lanes) continue;
+        expected.Move(static_cast<size_t>(first + i),
+                      kWays[static_cast<size_t>(island(i % kLanes) + 1)]);
       }
-      LaneKernelsFor(target).move_lines(&kWays[1], of_lane, lanes, count, state.moving());
-      for (int i = 0; i < count * kLanes; ++i) {
-        if (i % kLanes >= lanes) state.Copy(static_cast<size_t>(i), &expected);
-      }
-      EXPECT_TRUE(state.SameBits(expected))
-          << TargetName(target) << ", " << count << " lines of " << lanes << " lanes";
     }
+    LaneKernelsFor(target).move_blocks(&kWays[1], blocks.data(), of_lane.data(), count,
+                                       state.moving());
+    for (int b = 0; b < count; ++b) {
+      const PairBlock& block = blocks[static_cast<size_t>(b)];
+      for (int i = 0; i < block.row_count * kLanes; ++i) {
+        const size_t at = static_cast<size_t>(block.x) * kLanes + static_cast<size_t>(i);
+        if (i % kLanes >= block.lanes) state.Copy(at, &expected);
+      }
+    }
+    EXPECT_TRUE(state.SameBits(expected)) << TargetName(target);
   }
 }
 

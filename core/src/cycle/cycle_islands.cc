@@ -44,6 +44,8 @@ void CycleIslands::Begin(const Plan& plan, NoStep no_step) {
   fresh.no_step = no_step;
   reports_.assign(plan.islands().size(), fresh);
   groups_.assign(plan.groups().size(), {.active = true});
+  not_done_.clear();
+  for (const Group& group : plan.groups()) not_done_.push_back(group.islands);
   stopped_.clear();
   stopped_.reserve(plan.islands().size());
 }
@@ -85,6 +87,7 @@ void CycleIslands::Stop(int island, StopReason reason) {
   reports_[island].stop = reason;
   reports_[island].sweeps = group_of(island).sweeps;
   states_[island].Stop();
+  --not_done_[plan_->islands()[island].group];
   stopped_.push_back(island);
 }
 

@@ -102,20 +102,17 @@ class CycleIslands {
   Array<IslandProgress> states_;
   Array<IslandReport> reports_;
   Array<GroupSweeps> groups_;
-  Array<int> stopped_;  ///< since groups were closed
+  Array<int> not_done_;  ///< islands of each group
+  Array<int> stopped_;   ///< since groups were closed
   Array<Residual> last_seen_;
 };
 
 template <class Function>
 void CycleIslands::CloseGroups(const Function& function) {
   for (int island : stopped_) {
-    const Group& group = plan_->groups()[plan_->islands()[island].group];
-    GroupSweeps& sweeps = group_of(island);
-    bool all_done = true;
-    for (int i : plan_->islands_of_groups().subspan(group.first_island, group.islands)) {
-      all_done = all_done && states_[i].done();
-    }
-    sweeps.active = sweeps.active && !all_done;
+    const int group = plan_->islands()[island].group;
+    GroupSweeps& sweeps = groups_[group];
+    sweeps.active = sweeps.active && not_done_[group] > 0;
     if (sweeps.active) function(island);
   }
   stopped_.clear();

@@ -19,16 +19,14 @@ void Copy(const Plan& plan, int island, const Lines& x_from, const Bodies& bodie
                 bodies->begin() + group.first_slot);
     return;
   }
-  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    const simd::PairBlock& block = plan.blocks()[b];
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      if (plan.island_of(b, lane) != island) continue;
-      for (int k = 0; k < block.row_count; ++k) {
-        (*x)[block.x + k].lane[lane] = x_from[block.x + k].lane[lane];
-      }
-      (*bodies)[block.a[lane]] = bodies_from[block.a[lane]];
-      if (block.b[lane] != 0) (*bodies)[block.b[lane]] = bodies_from[block.b[lane]];
+  for (const int at : plan.lanes_of(island)) {
+    const simd::PairBlock& block = plan.blocks()[at / simd::kLanes];
+    const int lane = at % simd::kLanes;
+    for (int k = 0; k < block.row_count; ++k) {
+      (*x)[block.x + k].lane[lane] = x_from[block.x + k].lane[lane];
     }
+    (*bodies)[block.a[lane]] = bodies_from[block.a[lane]];
+    if (block.b[lane] != 0) (*bodies)[block.b[lane]] = bodies_from[block.b[lane]];
   }
 }
 

@@ -2,6 +2,7 @@
 #include "plan/plan.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "runtime/in_parts.h"
@@ -257,6 +258,32 @@ void Plan::FillBlocks() {
     group.x_lines = x_lines_ - group.first_x;
   }
   FindAlike();
+  ListLanes();
+}
+
+void Plan::ListLanes() {
+  lanes_begin_.assign(islands_.size() + 1, 0);
+  const auto shared = [this](const Group& group) {
+    return std::span(island_of_lane_)
+        .subspan(static_cast<size_t>(group.first_block) * kLanes,
+                 group.islands > 1 ? static_cast<size_t>(group.blocks) * kLanes : 0);
+  };
+  for (const Group& group : groups_) {
+    for (const int island : shared(group)) {
+      if (island >= 0) ++lanes_begin_[island];
+    }
+  }
+  // where they end, from which each lane takes one as they are put in their places backwards
+  std::partial_sum(lanes_begin_.begin(), lanes_begin_.end(), lanes_begin_.begin());
+  lanes_of_islands_.resize(lanes_begin_.back());
+  for (const Group& group : groups_) {
+    const auto lanes = shared(group);
+    for (size_t l = lanes.size(); l-- > 0;) {
+      if (lanes[l] < 0) continue;
+      lanes_of_islands_[--lanes_begin_[lanes[l]]] =
+          group.first_block * kLanes + static_cast<int>(l);
+    }
+  }
 }
 
 int Plan::RowsOf(int first_block, int end_block) const {

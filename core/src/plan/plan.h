@@ -71,6 +71,12 @@ class Plan {
   int island_of(int block, int lane) const { return islands_of(block)[lane]; }
   /// Islands of all lanes, -1 for those that are not used.
   const int* islands_of(int block) const { return &island_of_lane_[block * simd::kLanes]; }
+  /// Lanes of an island, kLanes numbers for each block, in their order.
+  /// @pre the island shares its group with others
+  std::span<const int> lanes_of(int island) const {
+    const auto begin = static_cast<size_t>(lanes_begin_[island]);
+    return std::span(lanes_of_islands_).subspan(begin, lanes_begin_[island + 1] - begin);
+  }
   /// Blocks of a group come colour by colour.
   int colour_of(int block) const { return colour_of_block_[block]; }
   /// Problem rows of a pair. @pre it is made of rows
@@ -100,6 +106,7 @@ class Plan {
   void FillBlocks();
   void FillOverflow(size_t begin, size_t end);
   void FindAlike();
+  void ListLanes();
   simd::PairBlock* FindOpenBlock(int pair, size_t first_block);
   simd::PairBlock& AddBlock(int pair);
   void AddLane(int pair, simd::PairBlock* block);
@@ -130,6 +137,7 @@ class Plan {
   Array<int> order_;  ///< pairs in the order of a sweep
   Array<simd::PairBlock> blocks_;
   Array<int> pair_of_lane_, island_of_lane_;
+  Array<int> lanes_of_islands_, lanes_begin_;  ///< of those that share a group
   Array<int> colour_of_block_;
   Array<int> slot_of_body_, body_of_slot_;
   Array<Unit> units_;

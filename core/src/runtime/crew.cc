@@ -250,10 +250,10 @@ struct Crew::Impl : detail::Placed {
   std::unique_ptr<Executor> own;  ///< made when helpers are called first: small problems need none
   Memory* const memory = detail::MemoryOfThread();
   Board* board = new Board;
-  SpanRecorder* recorder = nullptr;
 };
 
-Crew::Crew(int threads, Executor* executor) : impl_(std::make_unique<Impl>()) {
+Crew::Crew(int threads, Executor* executor)
+    : impl_(std::make_unique<Impl>()), alone_(threads == 1) {
   impl_->asked = impl_->threads = threads;
   impl_->given = executor;
   if (threads == 1 || executor != nullptr) return;
@@ -271,10 +271,9 @@ void Crew::Follow(int threads, Executor* executor) {
 }
 
 void Crew::RecordTo(SpanRecorder* recorder) {
-  impl_->recorder = recorder;
+  recorder_ = recorder;
   impl_->board->RecordTo(recorder);
 }
-SpanRecorder* Crew::recorder() const { return impl_->recorder; }
 
 void Crew::Call(int most) {
   const int threads = std::min(most, impl_->threads);
@@ -322,7 +321,17 @@ class Closing {
 
 }  // namespace
 
+void Crew::RunAlone(StagedWork* work) const {
+  for (int stage = 0; stage < work->stages() && work->GoOn(stage); ++stage) {
+    const int units = work->units(stage);
+    const SpanClock clock(recorder_, 0, recorder_ != nullptr ? work->label(stage) : SpanLabel{},
+                          units);
+    for (int unit = 0; unit < units; ++unit) work->Do(stage, unit);
+  }
+}
+
 void Crew::Run(StagedWork* work) {
+  if (alone_) return RunAlone(work);
   const bool called_before = called();
   if (!called_before) Call();
   const Closing closing(called_before ? nullptr : impl_->board);

@@ -46,13 +46,15 @@ class Crew : public detail::Placed {
 
   /// Who takes down what is done from now on; nullptr: nobody. Not while helpers are here.
   void RecordTo(SpanRecorder* recorder);
-  SpanRecorder* recorder() const;
+  SpanRecorder* recorder() const { return recorder_; }
 
   /// Calls helpers, who stay until Dismiss(): @p most threads in all. Run() does so itself where
   /// nobody did before.
   void Call(int most = kMostThreads);
   void Dismiss();
   bool called() const;
+  /// The caller, who never has helpers.
+  bool alone() const { return alone_; }
   /// That may be at work now: more than one between Call() and Dismiss().
   int threads() const;
 
@@ -63,8 +65,12 @@ class Crew : public detail::Placed {
 
  private:
   static constexpr int kMostThreads = 1024;
+  void RunAlone(StagedWork* work) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  SpanRecorder* recorder_ = nullptr;
+  bool alone_;
 };
 
 }  // namespace cairn

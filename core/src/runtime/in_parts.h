@@ -27,6 +27,11 @@ class Parts final : public StagedWork {
 /// function(unit) for all units.
 template <class Function>
 void ForUnits(int units, Crew* crew, const Function& function, SpanLabel label = {}) {
+  if (crew->alone()) {
+    const SpanClock clock(crew->recorder(), 0, label, units);
+    for (int unit = 0; unit < units; ++unit) function(unit);
+    return;
+  }
   Parts parts(units, function, label);
   crew->Run(&parts);
 }

@@ -180,12 +180,49 @@ class BlockSweeps::Pass final : public StagedWork {
   std::int64_t rows_ = 0;    ///< of it, under a budget
 };
 
+bool BlockSweeps::InOneGo() const { return crew_->alone() && !meter_->limited(); }
+
+void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& kernels) {
+  const Plan& plan = frame_->plan();
+  int made = 0;
+  for (const GroupSweeps& group : groups) made = group.active ? group.sweeps : made;
+  const SpanClock clock(crew_->recorder(), 0, {kernels.kind, made});
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].active) continue;
+    const Group& group = plan.groups()[g];
+    simd::PairWork work = frame_->WorkOn(group.first_block, group.blocks);
+    work.hold_lifted = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
+    for (int k = 0; k < kernels.count; ++k) {
+      work.sweep = groups[g].sweeps + k;
+      (k == kernels.count - 1 ? kernels.last : kernels.others)(work);
+    }
+  }
+}
+
+bool BlockSweeps::SweepInOneGo(int count, std::span<GroupSweeps> groups) {
+  const simd::PairKernels& kernels = frame_->kernels();
+  GoOver(groups, {SpanKind::kSweep, count, kernels.sweep, kernels.measured_sweep});
+  double rows = 0;
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (!groups[g].active) continue;
+    groups[g].sweeps += count;
+    rows += static_cast<double>(frame_->plan().groups()[g].rows);
+  }
+  meter_->Charge(WorkKind::kSweep, count * rows);
+  return true;
+}
+
 bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
+  if (InOneGo()) return SweepInOneGo(count, groups);
   Pass pass(*this, Pass::Kind::kSweeps, groups, count, 1);
   return Run(&pass, groups) == count;
 }
 
 void BlockSweeps::SweepWhole(std::span<GroupSweeps> groups) {
+  if (InOneGo()) {
+    SweepInOneGo(1, groups);
+    return;
+  }
   Pass pass(*this, Pass::Kind::kWholeSweeps, groups, 1, 1);
   Run(&pass, groups);
 }
@@ -208,6 +245,10 @@ void BlockSweeps::Measure(std::span<const GroupSweeps> groups) {
 void BlockSweeps::MeasureFree(std::span<const GroupSweeps> groups) { MeasureAt(0, groups); }
 
 void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
+  if (price == 0 && InOneGo()) {
+    const auto measure = frame_->kernels().measure;
+    return GoOver(groups, {SpanKind::kMeasure, 1, measure, measure});
+  }
   Pass pass(*this, Pass::Kind::kMeasure, groups, 1, price);
   crew_->Run(&pass);
   pass.Finish();
@@ -275,14 +316,14 @@ Residual BlockSweeps::ErrorByAll(const Group& group) const {
 void BlockSweeps::ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const {
   const Plan& plan = frame_->plan();
   const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
-  if (islands.size() == 1 && !HasFewLanes(group)) {
-    residuals[islands[0]] = ErrorOfGroup(group);
+  if (islands.size() == 1) {
+    residuals[islands[0]] = HasFewLanes(group) ? ErrorOfFewLanes(group) : ErrorOfGroup(group);
     return;
   }
   const std::span<double> scales = frame_->scales();
   for (int island : islands) residuals[island] = {};
-  ForLanes(group, [&](const simd::BlockError& error, int block, int lane) {
-    Residual& residual = residuals[plan.island_of(block, lane)];
+  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
+    Residual& residual = residuals[island];
     residual.max = std::max<double>(residual.max, error.max.lane[lane]);
     residual.max_angular = std::max<double>(residual.max_angular, error.max_angular.lane[lane]);
     residual.energy = std::max<double>(residual.energy, error.energy.lane[lane]);
@@ -291,8 +332,7 @@ void BlockSweeps::ErrorsOfGroup(const Group& group, std::span<Residual> residual
     scales[island] = SumScale(residuals[island].energy, kEnergyBits);
     residuals[island].energy = 0;
   }
-  ForLanes(group, [&](const simd::BlockError& error, int block, int lane) {
-    const int island = plan.island_of(block, lane);
+  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
     residuals[island].energy +=
         simd::Rounded(static_cast<double>(error.energy.lane[lane]) * scales[island]);
   });
@@ -308,6 +348,21 @@ bool BlockSweeps::HasFewLanes(const Group& group) const {
     if (lanes > simd::kLanes) return false;
   }
   return true;
+}
+
+Residual BlockSweeps::ErrorOfFewLanes(const Group& group) const {
+  float max = 0, max_angular = 0, energy = 0;
+  ForLanes(group, [&](const simd::BlockError& error, int lane, int) {
+    max = std::max(max, error.max.lane[lane]);
+    max_angular = std::max(max_angular, error.max_angular.lane[lane]);
+    energy = std::max(energy, error.energy.lane[lane]);
+  });
+  const double scale = SumScale(energy, kEnergyBits);
+  double whole = 0;
+  ForLanes(group, [&](const simd::BlockError& error, int lane, int) {
+    whole += simd::Rounded(static_cast<double>(error.energy.lane[lane]) * scale);
+  });
+  return {.max = max, .max_angular = max_angular, .energy = std::sqrt(whole / scale)};
 }
 
 Residual BlockSweeps::ErrorOfGroup(const Group& group) const {
@@ -330,10 +385,12 @@ Residual BlockSweeps::ErrorOfGroup(const Group& group) const {
 
 template <class Function>
 void BlockSweeps::ForLanes(const Group& group, const Function& function) const {
+  const Plan& plan = frame_->plan();
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
     const simd::BlockError& error = frame_->errors()[b];
-    const int lanes = frame_->plan().blocks()[b].lanes;
-    for (int lane = 0; lane < lanes; ++lane) function(error, b, lane);
+    const int* const islands = plan.islands_of(b);
+    const int lanes = plan.blocks()[b].lanes;
+    for (int lane = 0; lane < lanes; ++lane) function(error, lane, islands[lane]);
   }
 }
 

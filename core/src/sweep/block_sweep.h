@@ -44,6 +44,17 @@ class BlockSweeps {
  private:
   static constexpr int kManyBlocks = 128;
   class Pass;
+  /// What goes over blocks, so many times, the last time with another kernel.
+  struct Kernels {
+    SpanKind kind;
+    int count;
+    simd::PairKernels::Kernel others, last;
+  };
+  /// Whether all groups can be gone over one after the other: nobody shares the work, and nobody
+  /// looks at the budget in between.
+  bool InOneGo() const;
+  void GoOver(std::span<const GroupSweeps> groups, const Kernels& kernels);
+  bool SweepInOneGo(int count, std::span<GroupSweeps> groups);
   /// Returns how many sweeps were made.
   int Run(Pass* pass, std::span<GroupSweeps> groups);
   void MeasureAt(double price, std::span<const GroupSweeps> groups);
@@ -55,7 +66,8 @@ class BlockSweeps {
   Residual ErrorByAll(const Group& group) const;
   /// The same of a group that is one island.
   Residual ErrorOfGroup(const Group& group) const;
-  /// function(errors of a block, block, lane)
+  Residual ErrorOfFewLanes(const Group& group) const;
+  /// function(errors of a block, lane, island)
   template <class Function>
   void ForLanes(const Group& group, const Function& function) const;
 

@@ -48,12 +48,9 @@ class Nncg::Pass final : public StagedWork {
 
  private:
   void MoveImpulses(const Unit& unit) {
-    for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
-      const simd::PairBlock& block = plan_.blocks()[b];
-      kernels_.move_lines(
-          &nncg_.MomentumOf(0), plan_.islands_of(b), block.lanes, block.row_count,
-          {&now_.x[block.x], &nncg_.last_.x[block.x], &nncg_.direction_.x[block.x]});
-    }
+    kernels_.move_blocks(&nncg_.MomentumOf(0), &plan_.blocks()[unit.first_block],
+                         plan_.islands_of(unit.first_block), unit.blocks,
+                         {now_.x.data(), nncg_.last_.x.data(), nncg_.direction_.x.data()});
   }
 
   void MoveBodies(const Group& group) {
