@@ -23,7 +23,7 @@ namespace {
 /// What was typed behind the options of `cairn worlds`.
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
-  std::string seconds = "5", scale = "1", jobs, json, shrink, beside;
+  std::string seconds = "5", scale = "1", jobs, json, shrink, beside, doubts = "0";
   bool list = false, report = false, audit = false, bits = false;
   OutputWords output;
 };
@@ -136,6 +136,7 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
     return kFine;
   }
   const bench::CampaignOptions options = Check(words);
+  const int doubts = ParseInt("--doubts", words.doubts, 0, 1'000'000, "runs that may fail");
   if (!words.json.empty()) CheckWritable(words.json);
   if (!words.shrink.empty()) CheckFolder(words.shrink);
   std::vector<bench::WorldResult> results = RunWithProgress(options, ParseProgress(words.output));
@@ -152,9 +153,7 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   if (!words.shrink.empty()) {
     fmt::print("\nshrunk:\n{}", ShrinkFailures(options, results, words.shrink));
   }
-  const bool failed = std::any_of(results.begin(), results.end(),
-                                  [](const bench::WorldResult& result) { return result.failed(); });
-  return failed ? kCheckFailed : kFine;
+  return bench::AnyFails(results, doubts) ? kCheckFailed : kFine;
 }
 
 }  // namespace
@@ -175,6 +174,8 @@ Command AddWorldsCommand(CLI::App* app) {
   add("--scale", &words->scale, "Smaller worlds: share of their size, at most 1; default 1", "X");
   add("--jobs", &words->jobs, "Worlds run side by side; default: as many as cores", "N");
   add("--json", &words->json, "Write everything about every world", "FILE");
+  add("--doubts", &words->doubts,
+      "So many runs may fail restless, gap or penetr, which alone prove nothing; default 0", "N");
   add("--beside", &words->beside,
       "Takes Bullet's runs from results of --json of the same worlds, where they have them",
       "FILE,...");

@@ -47,6 +47,17 @@ bool WorldResult::failed() const {
                      [](const std::vector<Finding>& found) { return !found.empty(); });
 }
 
+bool AnyFails(std::span<const WorldResult> results, int doubts) {
+  int doubtful = 0;
+  for (const WorldResult& result : results) {
+    for (const std::vector<Finding>& found : result.findings) {
+      if (std::ranges::any_of(found, IsProof, &Finding::oracle)) return true;
+      doubtful += found.empty() ? 0 : 1;
+    }
+  }
+  return doubtful > doubts;
+}
+
 WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed) {
   WorldResult result;
   result.seed = seed.seed;

@@ -23,6 +23,10 @@ struct WorldResult {
   bool failed() const;
 };
 
+/// Whether some oracle proves a failure, see IsProof(), or the others fail more than @p doubts
+/// times.
+bool AnyFails(std::span<const WorldResult> results, int doubts);
+
 /// What became of worlds with Bullet, by seed, in the order of BulletVariants().
 using BulletRuns = std::unordered_map<std::uint64_t, std::vector<Trial>>;
 

@@ -21,6 +21,12 @@ inline bool IsOfSpeed(Oracle oracle) {
   return oracle == Oracle::kFliesApart || oracle == Oracle::kRestless;
 }
 
+/// Whether a single failure proves something. The other lines are far from what solvers differ by,
+/// but worlds are chaotic: a pin between boxes that others wedge apart opens, whoever solves.
+inline bool IsProof(Oracle oracle) {
+  return oracle != Oracle::kRestless && oracle != Oracle::kGap && oracle != Oracle::kPenetration;
+}
+
 /// Where oracles draw the line. A world that is chaotic ends differently with every solver: lines
 /// are far from what solvers differ by.
 struct Lines {

@@ -413,5 +413,21 @@ TEST(Worlds, StepsThatFlungBodiesAreUndone) {
   }
 }
 
+TEST(Campaign, FailsByProofsAndByMoreDoubtsThanAreAllowed) {
+  const auto result = [](std::vector<Oracle> oracles) {
+    WorldResult of;
+    for (const Oracle oracle : oracles) of.findings.push_back({{oracle, 2, 1}});
+    of.findings.emplace_back();
+    return of;
+  };
+  const std::vector<WorldResult> fine{result({})},
+      doubts{result({Oracle::kGap, Oracle::kRestless}), result({Oracle::kPenetration})},
+      proof{result({Oracle::kAudit})};
+  EXPECT_FALSE(AnyFails(fine, 0));
+  EXPECT_TRUE(AnyFails(doubts, 2));
+  EXPECT_FALSE(AnyFails(doubts, 3));
+  EXPECT_TRUE(AnyFails(proof, 100));
+}
+
 }  // namespace
 }  // namespace cairn::bench

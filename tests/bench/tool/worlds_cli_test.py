@@ -80,6 +80,10 @@ class WorldsTest(CairnTest):
         os.remove(self.path("old.json"))
         self.assertIn("cannot be read", refusal("--seeds", "0:2"))
 
+    def test_doubts_are_a_number(self):
+        said = self.refused(USAGE, "worlds", "--seeds", "0:2", "--doubts", "few")
+        self.assertIn("--doubts", said)
+
     def test_a_kind_leaves_only_its_worlds(self):
         self.worlds("--seeds", "0:90", "--kind", "tower,gears", "--seconds", "0.1", "--solver",
                     "cairn-sweeps", "--json", self.path("w.json"))
