@@ -8,7 +8,11 @@
 namespace cairn::simd {
 namespace {
 
-enum class Pass { kStart, kSweep, kMeasuredSweep, kMeasure };
+enum class Pass { kStart, kSweep, kMeasuredSweep, kFriction, kMeasure };
+
+constexpr bool Measures(Pass pass) {
+  return pass == Pass::kMeasuredSweep || pass == Pass::kMeasure;
+}
 
 // Maximum and minimum as x86 has them: the second operand if the two are equal or one is NaN.
 float Max(float a, float b) { return a > b ? a : b; }
@@ -113,7 +117,7 @@ void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, c
       if (!(parent > 0)) change = 0;
       now = old + change;
     }
-    if (pass != Pass::kSweep) {
+    if (Measures(pass)) {
       const float size = std::fabs(change), e = size / inv_d;
       float& most = (row.angular ? error->max_angular : error->max).lane[lane];
       most = Max(e, most);
@@ -135,8 +139,9 @@ void RunLane(Pass pass, const PairWork& work, const PairBlock& block, int lane, 
   line += PairLines(block.form);
   for (int i = 0; i < block.row_count; ++i) {
     const RowShape& row = block.rows[i];
-    const bool sweeps = pass == Pass::kSweep || pass == Pass::kMeasuredSweep;
-    if (!(sweeps && work.sweep >= row.max_sweeps)) {
+    const bool sweeps = pass != Pass::kStart && pass != Pass::kMeasure;
+    const bool passed_over = pass == Pass::kFriction && row.parent < 0;
+    if (!passed_over && !(sweeps && work.sweep >= row.max_sweeps)) {
       Relax(pass, work, block, i, line, x, lane, &state, error);
     }
     line += RowLines(block.form, row);
@@ -149,8 +154,7 @@ void Run(const PairWork& work) {
   const FlushDenormals flush;
   BlockError unused;
   for (int i = 0; i < work.count; ++i) {
-    const bool measures = pass == Pass::kMeasuredSweep || pass == Pass::kMeasure;
-    BlockError* const error = measures ? &work.errors[i] : &unused;
+    BlockError* const error = Measures(pass) ? &work.errors[i] : &unused;
     *error = {};
     for (int lane = 0; lane < work.blocks[i].lanes; ++lane) {
       RunLane(pass, work, work.blocks[i], lane, error);
@@ -162,7 +166,8 @@ void Run(const PairWork& work) {
 
 const PairKernels& ReferencePairKernels() {
   static constexpr PairKernels kKernels = {Run<Pass::kStart>, Run<Pass::kSweep>,
-                                           Run<Pass::kMeasuredSweep>, Run<Pass::kMeasure>};
+                                           Run<Pass::kMeasuredSweep>, Run<Pass::kFriction>,
+                                           Run<Pass::kMeasure>};
   return kKernels;
 }
 

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace cairn::simd {
 namespace HWY_NAMESPACE {
 
-enum class Pass { kStart, kSweep, kMeasuredSweep, kMeasure };
+enum class Pass { kStart, kSweep, kMeasuredSweep, kFriction, kMeasure };
 
 constexpr bool Measures(Pass pass) {
   return pass == Pass::kMeasuredSweep || pass == Pass::kMeasure;
@@ -209,7 +209,7 @@ HWY_INLINE void RelaxRow(const PairWork& work, const RowShape& row, const Line* 
   W inv_d = step;
   if (row.relaxed) {
     const W relaxation = LoadLine<W>(*bounds++);
-    if (pass != Pass::kSweep) inv_d = Div(step, relaxation);
+    if (Measures(pass)) inv_d = Div(step, relaxation);
   }
   // old + factor (target - G v); what does not depend on the row before is added first
   const W factor = pass == Pass::kMeasure ? inv_d : step;
@@ -247,10 +247,14 @@ struct BlockState {
   HWY_INLINE void DoRow(const PairWork& work, const RowShape& row, int i) {
     if constexpr (pass == Pass::kStart) {
       pair.Push(line, LoadLine<W>(x[i]));
-    } else if (pass == Pass::kMeasure || work.sweep < row.max_sweeps) {
+    } else if (TakesPart(work, row)) {
       RelaxRow<form, pass>(work, row, line, x, x + i, &pair, &errors);
     }
     line += RowLines(form, row);
+  }
+  HWY_INLINE static bool TakesPart(const PairWork& work, const RowShape& row) {
+    if (pass == Pass::kFriction && row.parent < 0) return false;
+    return pass == Pass::kMeasure || work.sweep < row.max_sweeps;
   }
   HWY_INLINE void End(const PairWork& work, int at) const {
     if (pass != Pass::kMeasure) pair.Scatter(work, work.blocks[at]);
@@ -283,6 +287,13 @@ HWY_NOINLINE void RunTwoBlocks(const PairWork& work, int at) {
   second.End(work, at + 1);
 }
 
+inline bool HasFriction(const PairBlock& block) {
+  for (int i = 0; i < block.row_count; ++i) {
+    if (block.rows[i].parent >= 0) return true;
+  }
+  return false;
+}
+
 /// Registers that hold more than one block: a line is one of them.
 constexpr bool kTwoAtOnce = Wide<kLanes>::kRegisters == 1;
 /// From block @p at on, in registers as narrow as its lanes allow: small worlds have blocks with
@@ -291,6 +302,7 @@ constexpr bool kTwoAtOnce = Wide<kLanes>::kRegisters == 1;
 template <PairForm form, Pass pass>
 int RunSome(const PairWork& work, int at) {
   const PairBlock& block = work.blocks[at];
+  if (pass == Pass::kFriction && !HasFriction(block)) return 1;
   if constexpr (kTwoAtOnce) {
     if (at + 1 < work.count && block.like_next) {
       RunTwoBlocks<form, pass>(work, at);
@@ -326,7 +338,8 @@ void Run(const PairWork& work) {
 }
 
 constexpr PairKernels kPairKernels = {Run<Pass::kStart>, Run<Pass::kSweep>,
-                                      Run<Pass::kMeasuredSweep>, Run<Pass::kMeasure>};
+                                      Run<Pass::kMeasuredSweep>, Run<Pass::kFriction>,
+                                      Run<Pass::kMeasure>};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace cairn::simd

@@ -31,6 +31,8 @@ struct PairKernels {
   /// The same, and errors from what every row was moved by. They are natural residuals of states on
   /// the way through the sweep, not of the one it ends with.
   Kernel measured_sweep;
+  /// A sweep over the rows that have a parent, and no others.
+  Kernel friction;
   /// Natural residuals of the present state. Changes nothing else.
   Kernel measure;
 };

@@ -57,6 +57,7 @@ struct Step {
 constexpr Step kSteps[] = {{"start", &PairKernels::start, 0},
                            {"sweep 0", &PairKernels::sweep, 0},
                            {"measured sweep 1", &PairKernels::measured_sweep, 1},
+                           {"friction 1", &PairKernels::friction, 1},
                            {"measure", &PairKernels::measure, 0},
                            {"measured sweep 2", &PairKernels::measured_sweep, 2},
                            {"sweep 3", &PairKernels::sweep, 3}};

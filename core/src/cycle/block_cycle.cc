@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "cairn/detail/spans.h"
+#include "sweep/settle_friction.h"
 
 namespace cairn {
 namespace {
@@ -252,6 +253,38 @@ void BlockCycle::KeepBest() {
   }
 }
 
+bool BlockCycle::Settles(int i) const {
+  const IslandReport& report = islands_.report(i);
+  // joints would gape by what friction leaves them
+  return !frame_->plan().islands()[i].joints && report.stop == StopReason::kSweepLimit &&
+         report.sweeps > 0;
+}
+
+void BlockCycle::SettleFriction() {
+  if (!SettlesFriction(frame_->settings) || frame_->meter->limited()) return;
+  chosen_.Clear();
+  bool any = false;
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!Settles(i)) continue;
+    chosen_.Add(i);
+    any = true;
+  }
+  if (!any) return;
+  // those that share lanes with them stay as they are
+  const auto for_others = [this](const auto& function) {
+    for (int i = 0; i < islands_.count(); ++i) {
+      if (chosen_.Has(i) && !Settles(i)) function(i);
+    }
+  };
+  for_others([this](int i) { done_.Take(frame_->plan(), i, *frame_->data()); });
+  for (size_t g = 0; g < chosen_.groups().size(); ++g) {
+    // rows that took part in the last sweep do
+    chosen_.groups()[g].sweeps = std::max(0, islands_.groups()[g].sweeps - 1);
+  }
+  sweeps_->SweepFriction(chosen_.groups());
+  for_others([this](int i) { done_.Restore(frame_->plan(), i, frame_->data()); });
+}
+
 void BlockCycle::Finish() {
   const Plan& plan = frame_->plan();
   // islands that were done before others of their group
@@ -260,6 +293,7 @@ void BlockCycle::Finish() {
       done_.Restore(plan, i, frame_->data());
     }
   }
+  SettleFriction();
   chosen_.AddAll();
   sweeps_->MeasureFree(chosen_.groups());
   ReadErrors();

@@ -36,6 +36,9 @@ class BlockCycle {
   void GuardStart();
   /// Likewise impulses in the end.
   void GuardResult();
+  /// See SettlesFriction().
+  void SettleFriction();
+  bool Settles(int island) const;
   void Round();
   /// Makes so many sweeps, unless the budget ends before. The last one is seen.
   bool Sweep(int count);

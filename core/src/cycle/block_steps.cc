@@ -93,7 +93,6 @@ void BlockSteps::ReadPlan() {
 
 void BlockSteps::ReadIslands() {
   const Plan& plan = frame_->plan();
-  in_double_.assign(plan.islands().size(), 0);
   limited_.assign(plan.islands().size(), 0);
   keys_.assign(plan.islands().size(), ~std::uint64_t{0});
   set_up_.assign(plan.islands().size(), kSetUpIsland);
@@ -111,7 +110,6 @@ void BlockSteps::ReadIslands() {
       if (limited) limited_[island] = 1;
       set_up_[island] += block.row_count * (joints ? kSetUpJointRow : kSetUpRow);
       scalar_set_up_[island] += block.row_count * (joints ? kScalarJointRow : kScalarRow);
-      if (joints) in_double_[island] = 1;
     }
   }
 }
@@ -177,7 +175,7 @@ IslandMemory* BlockSteps::MemoryOf(int island) {
   IslandMemory*& memory = memory_of_island_[island];
   if (memory == nullptr) {
     memory = memories_->Recall(keys_[island], frame_->plan().islands()[island].first_body);
-    memory->odds().Expect(in_double_[island] != 0 ? kJointsCut : kContactsCut);
+    memory->odds().Expect(HasJoints(island) ? kJointsCut : kContactsCut);
   }
   return memory;
 }
@@ -248,7 +246,7 @@ void BlockSteps::Analyse(int group, std::span<const int> islands) {
 }
 
 BlockSteps::Precisions BlockSteps::PrecisionsOf(std::span<const int> islands) const {
-  const auto is_double = [this](int i) { return in_double_[i] != 0; };
+  const auto is_double = [this](int i) { return HasJoints(i); };
   const bool some = std::any_of(islands.begin(), islands.end(), is_double);
   return {some, some && std::all_of(islands.begin(), islands.end(), is_double)};
 }
@@ -300,8 +298,8 @@ int BlockSteps::SweepsOfEffort(int island, int iterations) const {
 }
 
 double BlockSteps::PriceAlone(int group, int island, int factorisations) {
-  return in_double_[island] != 0 ? PriceAloneOf<double>(group, island, factorisations)
-                                 : PriceAloneOf<float>(group, island, factorisations);
+  return HasJoints(island) ? PriceAloneOf<double>(group, island, factorisations)
+                           : PriceAloneOf<float>(group, island, factorisations);
 }
 
 template <class T>
@@ -328,7 +326,7 @@ void BlockSteps::Take(int group, std::span<const int> islands) {
 
 template <class T>
 void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* step) {
-  const auto chosen = [this](int i) { return (in_double_[i] != 0) == std::is_same_v<T, double>; };
+  const auto chosen = [this](int i) { return HasJoints(i) == std::is_same_v<T, double>; };
   if (std::none_of(islands.begin(), islands.end(), chosen)) return;
   for (int i : islands) {
     const StepSettings own = MemoryOf(i)->Step(*settings_);

@@ -50,7 +50,7 @@ class BlockSteps {
   /// Sweeps that fit, with all else, into the time that sequential impulses row by row take for so
   /// many, less a margin; at least those, and at most twice as many.
   int SweepsOfEffort(int island, int iterations) const;
-  bool HasJoints(int island) const { return in_double_[island] != 0; }
+  bool HasJoints(int island) const { return frame_->plan().islands()[island].joints; }
   /// The largest Body::strain on an island whose joints have neither limits nor motors: steps on
   /// those throw bodies at times.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
@@ -133,7 +133,6 @@ class BlockSteps {
     int rows = 0, lanes = 0;
   };
   Array<Alike> alike_;         ///< by island
-  Array<char> in_double_;      ///< by island
   Array<char> limited_;        ///< by island: some row has bounds of its own
   Array<double> strains_;      ///< by island, none if no body is strained
   Array<std::uint64_t> keys_;  ///< by island

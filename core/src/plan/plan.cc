@@ -68,6 +68,13 @@ void Plan::FindIslands(int bodies) {
     island.first_body = body;
     ++island.bodies;
   }
+  joints_of_shape_.clear();
+  for (int shape = 0; shape < shapes_.size(); ++shape) {
+    const std::span<const simd::RowShape> rows = shapes_.rows(shape);
+    joints_of_shape_.push_back(std::any_of(rows.begin(), rows.end(), [](const auto& row) {
+      return row.bound == simd::RowBound::kFree;
+    }));
+  }
   // pairs that nothing can move for are an island of their own, the last
   island_of_pair_.resize(list_.pairs.size());
   const int attached = static_cast<int>(islands_.size());
@@ -76,6 +83,7 @@ void Plan::FindIslands(int bodies) {
     const int island = pair.a == kWorld ? attached : island_of[pair.a];
     if (island == static_cast<int>(islands_.size())) islands_.emplace_back();
     islands_[island].rows += pair.rows;
+    islands_[island].joints = islands_[island].joints || joints_of_shape_[pair.shape] != 0;
     island_of_pair_[i] = island;
   }
 }

@@ -20,6 +20,7 @@ struct PlannedIsland {
   int first_body = -1;  ///< Lowest index in the problem, -1 for rows that nothing can move for.
   int bodies = 0, rows = 0;
   int group = 0;
+  bool joints = false;  ///< some row has no bounds
 };
 
 /// A large island, or several small ones that fill the lanes together. Blocks, impulses and bodies
@@ -130,6 +131,7 @@ class Plan {
   Array<PlannedIsland> islands_;
   Array<int> islands_of_groups_;
   Array<int> island_of_pair_;
+  Array<char> joints_of_shape_;
   Array<Group> groups_;
 
   PairOrder pair_order_;

@@ -9,6 +9,7 @@
 #include "reference/row_sweep.h"
 #include "reference/step.h"
 #include "reference/step_price.h"
+#include "sweep/settle_friction.h"
 
 namespace cairn {
 namespace {
@@ -183,7 +184,23 @@ bool IslandCycle::KeepBetter(Point before, bool sound, BudgetMeter* meter) {
   return true;
 }
 
+void IslandCycle::SettleFriction() {
+  const bool limited =
+      settings_.budget.kind() != Budget::Kind::kUnlimited || settings_.tuning.replay != nullptr;
+  const bool ends_rough = at_.stop == StopReason::kSweepLimit && at_.sweeps > 0;
+  const auto is_joint = [](const PackedRow& row) {
+    return row.parent == kNoRow && row.lo == -kInfinity && row.hi == kInfinity;
+  };
+  if (!SettlesFriction(settings_) || limited || !ends_rough ||
+      std::any_of(island_.rows.begin(), island_.rows.end(), is_joint)) {
+    return;
+  }
+  // rows that took part in the last sweep do
+  SweepFriction(island_, at_.sweeps - 1, settings_.tuning.lifted_friction, &at_.state);
+}
+
 IslandReport IslandCycle::Finish() {
+  SettleFriction();
   report_.guards.result = GuardState();
   if (report_.guards.result) memory_->Guarded();
   report_.merit = MeasureMerit(island_, at_.state).value();

@@ -49,6 +49,8 @@ class IslandCycle {
   bool KeepBetter(Point before, bool sound, BudgetMeter* meter);
   /// Scales impulses that are worse than none; whether they were.
   bool GuardState();
+  /// See SettlesFriction().
+  void SettleFriction();
 
   /// Up to @p count sweeps; stops early when the budget is spent or nothing moves.
   void Sweeps(int count, BudgetMeter* meter);

@@ -24,6 +24,13 @@ double Set(const PackedRow& row, int i, double x, IslandState* state) {
   return change;
 }
 
+/// Relaxes the row alone, then back inside its bounds:  x := clamp(x - w / d). Returns the change.
+double Relax(const PackedRow& row, int i, IslandState* state) {
+  const double old = state->x[i];
+  const double w = RelativeVelocity(row, state->u, old);
+  return Set(row, i, Clamp(old - row.step * w, BoundsOf(row, state->x)), state);
+}
+
 }  // namespace
 
 double SweepRows(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,
@@ -32,14 +39,17 @@ double SweepRows(const PackedIsland& island, SweepRange range, detail::LiftedFri
   for (int i = range.begin; i < range.end; ++i) {
     const PackedRow& row = island.rows[i];
     if (Rests(row, range.sweep, lifted, *state)) continue;
-
-    // relax the row alone, then back inside its bounds:  x := clamp(x - w / d)
-    const double old = state->x[i];
-    const double w = RelativeVelocity(row, state->u, old);
-    const double change = Set(row, i, Clamp(old - row.step * w, BoundsOf(row, state->x)), state);
-    largest = std::max(largest, row.diagonal * std::abs(change));
+    largest = std::max(largest, row.diagonal * std::abs(Relax(row, i, state)));
   }
   return largest;
+}
+
+void SweepFriction(const PackedIsland& island, int sweep, detail::LiftedFriction lifted,
+                   IslandState* state) {
+  for (int i = 0; i < static_cast<int>(island.rows.size()); ++i) {
+    const PackedRow& row = island.rows[i];
+    if (row.parent != kNoRow && !Rests(row, sweep, lifted, *state)) Relax(row, i, state);
+  }
 }
 
 void ProjectFriction(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,

@@ -17,6 +17,10 @@ struct SweepRange {
 double SweepRows(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,
                  IslandState* state);
 
+/// The same over all rows that have a parent, and no others.
+void SweepFriction(const PackedIsland& island, int sweep, detail::LiftedFriction lifted,
+                   IslandState* state);
+
 /// Brings friction back inside its bounds, in rows that a sweep did not get to after it had changed
 /// their parents.
 void ProjectFriction(const PackedIsland& island, SweepRange range, detail::LiftedFriction lifted,

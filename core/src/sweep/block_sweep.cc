@@ -26,7 +26,7 @@ constexpr int kEnergyBits = 30;
 /// is looked at between them, and whole phases without one.
 class BlockSweeps::Pass final : public StagedWork {
  public:
-  enum class Kind { kSweeps, kWholeSweeps, kMeasure };
+  enum class Kind { kSweeps, kWholeSweeps, kFriction, kMeasure };
 
   /// @p price: of a row, in work units.
   Pass(const BlockSweeps& sweeps, Kind kind, std::span<const GroupSweeps> groups, int count,
@@ -97,8 +97,15 @@ class BlockSweeps::Pass final : public StagedWork {
     work.sweep = groups_[group].sweeps + sweep;
     work.hold_lifted = sweeps_.settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
     const simd::PairKernels& kernels = sweeps_.frame_->kernels();
-    const auto last = sweep == count_ - 1 ? kernels.measured_sweep : kernels.sweep;
-    (kind_ == Kind::kMeasure ? kernels.measure : last)(work);
+    switch (kind_) {
+      case Kind::kMeasure:
+        return kernels.measure(work);
+      case Kind::kFriction:
+        return kernels.friction(work);
+      case Kind::kSweeps:
+      case Kind::kWholeSweeps:
+        return (sweep == count_ - 1 ? kernels.measured_sweep : kernels.sweep)(work);
+    }
   }
 
   /// As many of its units as the work that is left allows, but one at least.
@@ -199,7 +206,7 @@ void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& ker
   }
 }
 
-bool BlockSweeps::SweepInOneGo(int count, std::span<GroupSweeps> groups) {
+void BlockSweeps::SweepInOneGo(int count, std::span<GroupSweeps> groups) {
   const simd::PairKernels& kernels = frame_->kernels();
   GoOver(groups, {SpanKind::kSweep, count, kernels.sweep, kernels.measured_sweep});
   double rows = 0;
@@ -209,20 +216,19 @@ bool BlockSweeps::SweepInOneGo(int count, std::span<GroupSweeps> groups) {
     rows += static_cast<double>(frame_->plan().groups()[g].rows);
   }
   meter_->Charge(WorkKind::kSweep, count * rows);
-  return true;
 }
 
 bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
-  if (InOneGo()) return SweepInOneGo(count, groups);
+  if (InOneGo()) {
+    SweepInOneGo(count, groups);
+    return true;
+  }
   Pass pass(*this, Pass::Kind::kSweeps, groups, count, 1);
   return Run(&pass, groups) == count;
 }
 
 void BlockSweeps::SweepWhole(std::span<GroupSweeps> groups) {
-  if (InOneGo()) {
-    SweepInOneGo(1, groups);
-    return;
-  }
+  if (InOneGo()) return SweepInOneGo(1, groups);
   Pass pass(*this, Pass::Kind::kWholeSweeps, groups, 1, 1);
   Run(&pass, groups);
 }
@@ -235,6 +241,16 @@ int BlockSweeps::Run(Pass* pass, std::span<GroupSweeps> groups) {
     if (group.active) group.sweeps += made;
   }
   return made;
+}
+
+void BlockSweeps::SweepFriction(std::span<const GroupSweeps> groups) {
+  if (InOneGo()) {
+    const auto friction = frame_->kernels().friction;
+    return GoOver(groups, {SpanKind::kSweep, 1, friction, friction});
+  }
+  Pass pass(*this, Pass::Kind::kFriction, groups, 1, 0);
+  crew_->Run(&pass);
+  pass.Finish();
 }
 
 void BlockSweeps::Measure(std::span<const GroupSweeps> groups) {

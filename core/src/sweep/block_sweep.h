@@ -32,6 +32,9 @@ class BlockSweeps {
   /// One measured sweep, to its end.
   void SweepWhole(std::span<GroupSweeps> groups);
 
+  /// A sweep over rows of friction alone, free of charge: the end of what was swept before.
+  void SweepFriction(std::span<const GroupSweeps> groups);
+
   /// Natural residuals of the active groups, into BlockFrame::errors().
   void Measure(std::span<const GroupSweeps> groups);
   /// Residuals likewise, free of charge: to keep and to write results, not to get to them.
@@ -53,8 +56,9 @@ class BlockSweeps {
   /// Whether all groups can be gone over one after the other: nobody shares the work, and nobody
   /// looks at the budget in between.
   bool InOneGo() const;
+  /// Over each active group so often before the next one: it stays in the cache.
   void GoOver(std::span<const GroupSweeps> groups, const Kernels& kernels);
-  bool SweepInOneGo(int count, std::span<GroupSweeps> groups);
+  void SweepInOneGo(int count, std::span<GroupSweeps> groups);
   /// Returns how many sweeps were made.
   int Run(Pass* pass, std::span<GroupSweeps> groups);
   void MeasureAt(double price, std::span<const GroupSweeps> groups);

@@ -259,6 +259,33 @@ TEST(Plan, FillsTheLanesOfBlocksWithSmallIslands) {
 }
 
 // A chain of n has 3 n rows, and a group 2,048 at most: a group of a few rows would fill no lanes.
+TEST(Plan, ListsTheLanesOfIslandsThatShareAGroup) {
+  const Planned p(test::Together({test::Tower(3), test::Wall(60, 60), test::HangingChain(4, 1)}));
+  int listed = 0, used = 0;
+  for (int i = 0; i < static_cast<int>(p.plan.islands().size()); ++i) {
+    if (p.plan.groups()[p.plan.islands()[i].group].islands == 1) continue;
+    const std::span<const int> lanes = p.plan.lanes_of(i);
+    EXPECT_TRUE(std::is_sorted(lanes.begin(), lanes.end()));
+    for (const int lane : lanes) EXPECT_EQ(p.plan.island_of(lane / kLanes, lane % kLanes), i);
+    listed += static_cast<int>(lanes.size());
+  }
+  for (const Group& group : p.plan.groups()) {
+    if (group.islands == 1) continue;
+    for (const PairBlock& block : p.plan.blocks().subspan(group.first_block, group.blocks)) {
+      used += block.lanes;
+    }
+  }
+  EXPECT_GT(used, 0);
+  EXPECT_EQ(listed, used);
+}
+
+TEST(Plan, KnowsWhichIslandsHaveJoints) {
+  const Planned p(test::Together({test::Tower(3), test::HangingChain(4, 1)}));
+  ASSERT_EQ(p.plan.islands().size(), 2u);
+  EXPECT_FALSE(p.plan.islands()[0].joints);
+  EXPECT_TRUE(p.plan.islands()[1].joints);
+}
+
 TEST(Plan, SharesSmallIslandsOutEvenly) {
   struct Case {
     int chains, length;

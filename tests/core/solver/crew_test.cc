@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cairn/detail/threads.h"
+#include "runtime/in_parts.h"
 
 namespace cairn {
 namespace {
@@ -60,6 +61,20 @@ TEST(Crew, DoesEveryUnitOnceAndNoStageBeforeTheLast) {
       work.ExpectDoneOnce(6);
     }
   }
+}
+
+TEST(Crew, OfOneIsAloneAndDoesAllInOrder) {
+  Crew crew(1);
+  EXPECT_TRUE(crew.alone());
+  EXPECT_FALSE(Crew(2).alone());
+  SpanRecorder recorder(1, 16);
+  crew.RecordTo(&recorder);
+  std::vector<int> done;
+  ForUnits(5, &crew, [&done](int unit) { done.push_back(unit); }, {SpanKind::kSweep, 3, 1});
+  EXPECT_EQ(done, (std::vector<int>{0, 1, 2, 3, 4}));
+  ASSERT_EQ(recorder.spans(0).size(), 1u);
+  EXPECT_EQ(recorder.spans(0)[0].label, (SpanLabel{SpanKind::kSweep, 3, 1}));
+  EXPECT_EQ(recorder.spans(0)[0].units, 5);
 }
 
 TEST(Crew, DoesManyWorksOfOneShift) {

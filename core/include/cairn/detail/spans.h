@@ -14,7 +14,7 @@ namespace cairn {
 enum class SpanKind : std::uint8_t {
   kRead,       ///< The adapter of an engine makes the problem.
   kSetUp,      ///< Pairs, colours, blocks, numbers.
-  kSweep,      ///< A colour in a sweep: SpanLabel::number is the sweep, part the colour.
+  kSweep,      ///< Of a colour, or all of one: SpanLabel::number is the sweep, part the colour.
   kMeasure,    ///< Residuals.
   kGuard,      ///< What impulses are worth, before the first sweep and after the last.
   kStep,       ///< A subspace step, factorisation included.
