@@ -63,8 +63,9 @@ void* TakeMemory(Memory* memory, std::size_t bytes, std::size_t alignment) {
 
 void GiveMemory(Memory* memory, void* what, std::size_t bytes, std::size_t alignment) noexcept {
   if (memory != nullptr) return memory->Free(what, bytes, alignment);
-  if (alignment <= kPlain) return ::operator delete(what, bytes);
-  ::operator delete(what, bytes, std::align_val_t(alignment));
+  // without the size, which clang does not pass on unless it is told to
+  if (alignment <= kPlain) return ::operator delete(what);
+  ::operator delete(what, std::align_val_t(alignment));
 }
 
 Memory* MemoryOfThread() noexcept { return memory_of_thread; }
