@@ -16,7 +16,7 @@ enum class SpanKind : std::uint8_t {
   kSetUp,      ///< Pairs, colours, blocks, numbers.
   kSweep,      ///< Of a colour, or all of one: SpanLabel::number is the sweep, part the colour.
   kMeasure,    ///< Residuals.
-  kGuard,      ///< What impulses are worth, before the first sweep and after the last.
+  kGuard,      ///< What impulses are worth, after the first sweeps and after the last.
   kStep,       ///< A subspace step, factorisation included.
   kFactorise,  ///< Cholesky; number is the front.
   kWait,       ///< For units of work that another thread has claimed.
