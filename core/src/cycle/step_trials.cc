@@ -198,8 +198,7 @@ void StepTrials::TryAlone(int sweeps) {
     if (islands[i].stepped()) {
       if (verdicts_[i] == Verdict::kKept && IsBetterAlone(i)) verdicts_[i] = Verdict::kBetterAlone;
       if (frame_->learns()) {
-        const bool more = parts_.planner->SweepsInPlace(i) > frame_->settings.max_sweeps;
-        parts_.steps->odds(i).LearnGains(GainOfStep(i), GainAlone(i), more);
+        parts_.steps->odds(i).LearnGains(GainOfStep(i), GainAlone(i));
       }
       if (verdicts_[i] != Verdict::kKept) continue;
     }

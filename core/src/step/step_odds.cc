@@ -17,15 +17,15 @@ constexpr double kFade = 0.01;
 constexpr double kLater = 0.5;
 /// Frames after which the power of sweeps is measured again, in one without steps if need be.
 constexpr int kMeasureAgain = 64;
-/// How many times what the k_gs sweeps in its place gain a step has to gain. In its time an island
-/// could make some three times as many sweeps, which gain less than three times as much;
-/// kPaysForMore where sweeps would go on up to twice the limit. Steps that pay go on a while
-/// longer, down to kGoesOn of that.
-constexpr double kPays = 3, kPaysForMore = 4, kGoesOn = 0.65;
-/// Trials in a row that steps have to fail where, in the last one that they passed, they gained
-/// more than so many times what sweeps do; elsewhere it is one.
-constexpr int kDoubts = 3;
-constexpr double kMuch = 8;
+/// How many times what the k_gs sweeps in its place gain a step has to gain on average for islands
+/// to begin with steps, and for those that have them to go on. Steps on arches and dominoes gain
+/// less, on towers of ten boxes from 4, on bridges 50.
+constexpr double kBegins = 3, kGoesOn = 2.4;
+/// What that ratio is taken to be at least and at most, so that a contact that came in one frame
+/// does not outweigh many others.
+constexpr double kLeastRatio = 1, kMostRatio = 30;
+/// So many trials have an equal share in the mean; later ones have that of the last of these.
+constexpr int kEqualTrials = 4;
 /// Frames between two trials.
 constexpr int kLeastPause = 2, kMostPause = 16;
 constexpr double kLeastPower = 0.05, kMostPower = 20;
@@ -61,21 +61,17 @@ void StepOdds::LearnStep(int steps, double share) {
   Learn(std::clamp(-Log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
 }
 
-void StepOdds::LearnGains(double with_step, double alone, bool more) {
+void StepOdds::LearnGains(double with_step, double alone) {
   carries_ = with_step > kCarries * alone;
-  const double pays = more ? kPaysForMore : kPays;
-  const bool went_on = pays_ && trial_pause_ > 0;
-  if (went_on && with_step <= kGoesOn * pays * alone) {
-    // where steps carry much, those that come and go do harm
-    pays_ = ++doubts_ < (carried_much_ ? kDoubts : 1);
-    trial_pause_ = pays_ ? 1 : kLeastPause;
-  } else {
-    pays_ = went_on || with_step > pays * alone;
-    carried_much_ = with_step > kMuch * alone;
-    doubts_ = 0;
-    // what is piled up now, or begins to sag, asks for steps soon
-    trial_pause_ = pays_ ? kMostPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
-  }
+  const double ratio = with_step <= kLeastRatio * std::max(alone, 0.0) ? kLeastRatio
+                       : with_step >= kMostRatio * alone               ? kMostRatio
+                                                                       : with_step / alone;
+  const bool first = trials_ == 0;
+  if (trials_ < kEqualTrials) ++trials_;
+  ratio_ += (Log(ratio) - ratio_) / trials_;
+  pays_ = ratio_ > Log(pays_ && !first ? kGoesOn : kBegins);
+  // what is piled up now, or begins to sag, asks for steps soon
+  trial_pause_ = pays_ ? kMostPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
   trial_age_ = 0;
 }
 

@@ -24,8 +24,7 @@ class StepOdds {
   void LearnStep(int steps, double share);
   /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
   /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
-  /// @param more  sweeps in place of the step would go on for longer than those that were tried
-  void LearnGains(double with_step, double alone, bool more);
+  void LearnGains(double with_step, double alone);
   /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }
@@ -70,8 +69,9 @@ class StepOdds {
   bool carries_ = false;
   bool pays_ = true;
   int stepped_bodies_ = 0;
-  bool carried_much_ = false;
-  int doubts_ = 0;                       ///< trials failed in a row
+  /// Logarithm of the gain of steps over that of the sweeps in their place: mean that forgets.
+  double ratio_ = 0;
+  int trials_ = 0;  ///< that it is of
   int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again
   double power_ = kExpectedPower;
   bool power_known_ = false;

@@ -96,7 +96,7 @@ TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
   EXPECT_TRUE(odds.wants_trial());
   int last = 0;
   for (int trial = 0; trial < 5; ++trial) {
-    odds.LearnGains(1, 1, false);
+    odds.LearnGains(1, 1);
     EXPECT_FALSE(odds.pays());
     int frames = 0;
     for (; !odds.wants_trial(); ++frames) odds.EndFrame(0);
@@ -109,28 +109,37 @@ TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
 
 TEST(StepOdds, PayWhereSweepsInTheirPlaceGainLess) {
   StepOdds odds;
-  odds.LearnGains(3.5, 1, true);
-  EXPECT_FALSE(odds.pays()) << "twice as many sweeps could gain that, too";
-  odds.LearnGains(3.5, 1, false);
-  EXPECT_TRUE(odds.pays());
-  odds.LearnGains(2.5, 1, false);
-  EXPECT_TRUE(odds.pays()) << "steps that come and go do harm";
-  odds.LearnGains(1, 1, false);
+  odds.LearnGains(2.9, 1);
   EXPECT_FALSE(odds.pays());
-  odds.LearnGains(1, -1, false);
-  EXPECT_TRUE(odds.pays()) << "sweeps alone do harm";
+  odds.LearnGains(4, 1);
+  EXPECT_TRUE(odds.pays()) << "3.4 on average";
+  odds.LearnGains(1.5, 1);
+  EXPECT_TRUE(odds.pays()) << "2.6: steps that come and go do harm";
+  odds.LearnGains(1, 1);
+  EXPECT_FALSE(odds.pays()) << "2.0";
 }
 
-TEST(StepOdds, OutliveDoubtsWhereTheyCarriedMuch) {
+TEST(StepOdds, PayWhereSweepsAloneDoHarm) {
   StepOdds odds;
-  odds.LearnGains(50, 1, false);
-  for (int doubt = 0; doubt < 2; ++doubt) {
-    odds.LearnGains(1, 1, false);
+  odds.LearnGains(1, -1);
+  EXPECT_TRUE(odds.pays());
+  odds = {};
+  odds.LearnGains(-1, -2);
+  EXPECT_FALSE(odds.pays()) << "both do";
+  odds = {};
+  odds.LearnGains(0, 0);
+  EXPECT_FALSE(odds.pays());
+}
+
+// A contact came in two frames, of all that there were.
+TEST(StepOdds, OutliveDoubtsWhereStepsCarryMuch) {
+  StepOdds odds;
+  for (int trial = 0; trial < 10; ++trial) odds.LearnGains(50, 1);
+  for (int doubt = 0; doubt < 3; ++doubt) {
+    odds.LearnGains(-1, 1);
     EXPECT_TRUE(odds.pays()) << doubt;
-    odds.EndFrame(1);
-    EXPECT_TRUE(odds.wants_trial()) << "at once again";
   }
-  odds.LearnGains(1, 1, false);
+  for (int doubt = 0; doubt < 2; ++doubt) odds.LearnGains(-1, 1);
   EXPECT_FALSE(odds.pays());
 }
 
