@@ -38,7 +38,7 @@ struct Settings {
   /// Done when no row is further from its law than this: natural residual, in [m/s] for rows that
   /// act on points and in [rad/s] for rows that only turn, >= 0. 0 means never; Path::kAuto takes
   /// double precision below 1e-5.
-  double tolerance = 1e-3;
+  double tolerance = 1e-4;
   Budget budget = Budget::Unlimited();
   /// Threads of one Solve(), the caller's included, in [1, 1024]; the same bits for any number.
   int threads = 1;

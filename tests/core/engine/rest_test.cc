@@ -128,7 +128,7 @@ class Tower {
   int quiet_ = 0;
 };
 
-// At a tolerance of 1e-4 three of twenty towers creep by up to 2 mm/s.
+// At the default of 1e-4 fourteen of twenty towers creep by more than 1 mm/s.
 constexpr Settings kRest = {.tolerance = 2e-5};
 
 TEST(Rest, TenBoxesStandStillAfterFiveSeconds) {
@@ -141,12 +141,13 @@ TEST(Rest, TenBoxesStandStillAfterFiveSeconds) {
   }
 }
 
-// It creeps, but sleep ends that.
+// They creep by up to 2.3 mm/s, and sleep ends that.
 TEST(Rest, TenBoxesAreQuietAtTheDefaultTolerance) {
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     Tower tower(std::vector<double>(10, 10.0), seed, Settings{});
     tower.Run(5);
-    EXPECT_GE(tower.quiet(), 30) << "seed " << seed;
+    EXPECT_LE(tower.TopSpeed(), 4e-3) << "seed " << seed;
+    EXPECT_GE(tower.quiet(), 60) << "seed " << seed;
   }
 }
 
@@ -179,12 +180,17 @@ void ExpectRest(const Settings& settings, const Towers& towers, double fastest) 
   }
 }
 
-// 20 seeds, 60 s: at most 5.1e-3 m/s.
+// 20 seeds, 60 s: at most 2.8e-2 m/s.
+TEST(Rest, TallAndTopHeavyTowersStandAtTheDefaultTolerance) {
+  ExpectRest(Settings{}, Towers{.seeds = 3, .seconds = 15}.OrAsAsked(), 4e-2);
+}
+
+// 20 seeds, 60 s: at most 5.0e-3 m/s.
 TEST(Rest, TallAndTopHeavyTowersStand) {
   ExpectRest(kRest, Towers{.seeds = 1, .seconds = 15}.OrAsAsked(), 1e-2);
 }
 
-// 20 seeds: at most 2.7e-3 m/s, in a seventh of the time.
+// 20 seeds: at most 2.8e-3 m/s, in a fifth of the time.
 TEST(Rest, SubstepsLeaveTallTowersSlower) {
   Settings settings = kRest;
   settings.substeps = 2;
