@@ -71,7 +71,7 @@ class StepOdds {
   int stepped_bodies_ = 0;
   /// Logarithm of the gain of steps over that of the sweeps in their place: mean that forgets.
   double ratio_ = 0;
-  int trials_ = 0;  ///< that it is of
+  int trials_ = 0;                       ///< that it is of
   int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again
   double power_ = kExpectedPower;
   bool power_known_ = false;
