@@ -2,15 +2,40 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 #include "cairn/joint.h"
 
 namespace cairn {
 
+/// How far three unit vectors at right angles may be from that, squared.
+inline constexpr double kUnit = 1e-3;
+
+/// The three linear parts are unit vectors at right angles to each other.
+inline bool AreAxes(const Eigen::Matrix3d& linear) {
+  return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kUnit;
+}
+
+/// Three rows that follow each other hold a point: they have no bounds, and AreAxes(). @param rows
+/// of the joint; @param first  the first of the three
+inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
+  if (((joint.bounded | joint.angular) >> first & 7) != 0) return false;
+  const bool of_a = joint.body_a != kWorld || joint.opposite;
+  for (int i = 0; i < 3; ++i) {
+    const float(&x)[3] = of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
+    for (int j = 0; j <= i; ++j) {
+      const float(&y)[3] = of_a ? rows[first + j].linear_a : rows[first + j].linear_b;
+      double dot = i == j ? -1 : 0;
+      for (int k = 0; k < 3; ++k) dot += static_cast<double>(x[k]) * static_cast<double>(y[k]);
+      if (!(std::abs(dot) < kUnit)) return false;
+    }
+  }
+  return true;
+}
+
 /// Three rows of a joint that follow each other, as columns.
 struct RowTriple {
   Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
-  bool bounded = false;  ///< one of them is
 };
 
 /// @param rows  of the joint; @param first  the first of the three
@@ -25,20 +50,8 @@ inline RowTriple ReadTriple(const Joint& joint, const JointRow* rows, int first)
     triple.angular_a.col(k) = vector(row.angular_a);
     triple.linear_b.col(k) = joint.opposite ? vector(row.linear_a) * -1 : vector(row.linear_b);
     triple.angular_b.col(k) = vector(row.angular_b);
-    triple.bounded = triple.bounded || joint.is_bounded(first + k);
   }
   return triple;
-}
-
-/// The three linear parts are unit vectors at right angles to each other.
-inline bool AreAxes(const Eigen::Matrix3d& linear) {
-  constexpr double kUnit = 1e-3;  // how far they may be from that, squared
-  return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kUnit;
-}
-
-/// Of a body that is there.
-inline bool AreAxes(const RowTriple& rows, const Joint& joint) {
-  return AreAxes(joint.body_a != kWorld ? rows.linear_a : rows.linear_b);
 }
 
 /// The arm r of three rows l_i . v + (r x l_i) . omega.

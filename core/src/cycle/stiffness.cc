@@ -207,11 +207,12 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
   for (const Joint& joint : problem.joints) {
     if (!IsPulled(joint.body_a) && !IsPulled(joint.body_b)) continue;
     for (int row = 0; row + 3 <= joint.rows;) {
-      const RowTriple rows = ReadTriple(joint, &problem.joint_rows[joint.first_row], row);
-      if (rows.bounded || !AreAxes(rows, joint)) {
+      const JointRow* const of_joint = &problem.joint_rows[joint.first_row];
+      if (!HoldPoint(joint, of_joint, row)) {
         ++row;
         continue;
       }
+      const RowTriple rows = ReadTriple(joint, of_joint, row);
       const float* const x = &impulses.joint_rows[joint.first_row + row];
       const Eigen::Vector3d lambda(x[0], x[1], x[2]);
       if (IsPulled(joint.body_a)) {

@@ -124,12 +124,13 @@ void Substeps::FindHeld() {
   for (int j = 0; j < static_cast<int>(whole_.joints.size()); ++j) {
     const Joint& joint = whole_.joints[j];
     for (int row = 0; row + 3 <= joint.rows;) {
-      const RowTriple rows = ReadTriple(joint, &joint_rows_[joint.first_row], row);
+      const JointRow* const of_joint = &joint_rows_[joint.first_row];
       // what has bounds is a motor or a limit, and holds no point
-      if (rows.bounded || !AreAxes(rows, joint)) {
+      if (!HoldPoint(joint, of_joint, row)) {
         ++row;
         continue;
       }
+      const RowTriple rows = ReadTriple(joint, of_joint, row);
       held_.push_back(
           {j, row, ArmOf(rows.linear_a, rows.angular_a), ArmOf(rows.linear_b, rows.angular_b)});
       for (int k = 0; k < 3; ++k) is_held_[joint.first_row + row + k] = 1;
