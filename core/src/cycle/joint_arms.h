@@ -8,29 +8,30 @@
 
 namespace cairn {
 
-/// How far three unit vectors at right angles may be from that, squared.
-inline constexpr double kUnit = 1e-3;
-
-/// The three linear parts are unit vectors at right angles to each other.
-inline bool AreAxes(const Eigen::Matrix3d& linear) {
-  return (linear.transpose() * linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < kUnit;
-}
-
-/// Three rows that follow each other hold a point: they have no bounds, and AreAxes(). @param rows
-/// of the joint; @param first  the first of the three
-inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
-  if (((joint.bounded | joint.angular) >> first & 7) != 0) return false;
-  const bool of_a = joint.body_a != kWorld || joint.opposite;
+/// Whether vector(0) to vector(2) are unit vectors at right angles to each other.
+template <class Vectors>
+bool AreAxes(const Vectors& vector) {
+  constexpr double kFar = 1e-3;  // how far their products may be from 1 and 0
   for (int i = 0; i < 3; ++i) {
-    const float(&x)[3] = of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
     for (int j = 0; j <= i; ++j) {
-      const float(&y)[3] = of_a ? rows[first + j].linear_a : rows[first + j].linear_b;
-      double dot = i == j ? -1 : 0;
-      for (int k = 0; k < 3; ++k) dot += static_cast<double>(x[k]) * static_cast<double>(y[k]);
-      if (!(std::abs(dot) < kUnit)) return false;
+      double product = i == j ? -1 : 0;
+      for (int k = 0; k < 3; ++k) {
+        product += static_cast<double>(vector(i)[k]) * static_cast<double>(vector(j)[k]);
+      }
+      if (!(std::abs(product) < kFar)) return false;
     }
   }
   return true;
+}
+
+/// Three rows that follow each other hold a point: they have no bounds, and their linear parts are
+/// axes. @param rows  of the joint; @param first  the first of the three
+inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
+  if (((joint.bounded | joint.angular) >> first & 7) != 0) return false;
+  const bool of_a = joint.body_a != kWorld || joint.opposite;
+  return AreAxes([&](int i) -> const float(&)[3] {
+    return of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
+  });
 }
 
 /// Three rows of a joint that follow each other, as columns.

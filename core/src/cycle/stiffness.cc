@@ -243,7 +243,8 @@ void GeometricStiffness::AddRows(double time_step, const ContactProblem& problem
       linear_b.col(k) = View(rows[k].linear_b);
       angular_b.col(k) = View(rows[k].angular_b);
     }
-    if (!joint || !AreAxes(rows[0].body_a != kWorld ? linear_a : linear_b)) {
+    if (!joint ||
+        !AreAxes([&](int k) { return (rows[0].body_a != kWorld ? linear_a : linear_b).col(k); })) {
       ++i;
       continue;
     }

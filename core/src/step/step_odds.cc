@@ -18,8 +18,8 @@ constexpr double kLater = 0.5;
 /// Frames after which the power of sweeps is measured again, in one without steps if need be.
 constexpr int kMeasureAgain = 64;
 /// How many times what the k_gs sweeps in its place gain a step has to gain on average for islands
-/// to begin with steps, and for those that have them to go on. Steps on arches and dominoes gain
-/// less, on towers of ten boxes from 4, on bridges 50.
+/// to begin with steps, and for those that have them to go on. Steps gain less on arches and
+/// dominoes, more on towers, bridges and chains.
 constexpr double kBegins = 3, kGoesOn = 2.4;
 /// What that ratio is taken to be at least and at most, so that a contact that came in one frame
 /// does not outweigh many others.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <string>
@@ -128,27 +129,33 @@ class Tower {
   int quiet_ = 0;
 };
 
-// At the default of 1e-4 fourteen of twenty towers creep by more than 1 mm/s.
+// At the default of 1e-4 towers creep by up to 2.3 mm/s.
 constexpr Settings kRest = {.tolerance = 2e-5};
 
 TEST(Rest, TenBoxesStandStillAfterFiveSeconds) {
+  double fastest = 0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     Tower tower(std::vector<double>(10, 10.0), seed, kRest);
     tower.Run(5);
     EXPECT_LE(tower.TopSpeed(), 1e-3) << "seed " << seed;
     EXPECT_GE(tower.quiet(), 60) << "seed " << seed;
     EXPECT_NEAR(tower.height(), 10, 0.06) << "seed " << seed;  // a slop of 5 mm each
+    fastest = std::max(fastest, tower.TopSpeed());
   }
+  std::printf("ten boxes: top speed %.2g m/s\n", fastest);
 }
 
 // They creep by up to 2.3 mm/s, and sleep ends that.
 TEST(Rest, TenBoxesAreQuietAtTheDefaultTolerance) {
+  double fastest = 0;
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
     Tower tower(std::vector<double>(10, 10.0), seed, Settings{});
     tower.Run(5);
     EXPECT_LE(tower.TopSpeed(), 4e-3) << "seed " << seed;
     EXPECT_GE(tower.quiet(), 60) << "seed " << seed;
+    fastest = std::max(fastest, tower.TopSpeed());
   }
+  std::printf("ten boxes: top speed %.2g m/s\n", fastest);
 }
 
 /// How many towers of each kind, and for how long [s]; for a minute if the environment asks for
@@ -168,15 +175,20 @@ void ExpectRest(const Settings& settings, const Towers& towers, double fastest) 
   std::vector<double> top_heavy(16, 1.0);
   top_heavy.push_back(100);
   for (const std::vector<double>& masses : {std::vector<double>(30, 1.0), top_heavy}) {
+    std::vector<double> speeds;
     for (std::uint32_t seed = 1; seed <= towers.seeds; ++seed) {
       SCOPED_TRACE(std::to_string(masses.size()) + " boxes, seed " + std::to_string(seed));
       Tower tower(masses, seed, settings);
       tower.Run(towers.seconds - 1);
-      EXPECT_LE(tower.TopSpeed(), fastest);
+      speeds.push_back(tower.TopSpeed());
+      EXPECT_LE(speeds.back(), fastest);
       EXPECT_GE(tower.quiet(), 50 * towers.seconds);
       // a slop of 5 mm each, of which little is used
       EXPECT_NEAR(tower.height(), static_cast<double>(masses.size()), 0.01);
     }
+    std::sort(speeds.begin(), speeds.end());
+    std::printf("%zu boxes: top speed %.2g, median %.2g m/s\n", masses.size(), speeds.back(),
+                speeds[speeds.size() / 2]);
   }
 }
 
