@@ -49,7 +49,7 @@ struct Residual {
 /// island on which a step or the result was guarded is left to sweeps for a while. Method::kPgsSm
 /// with LiftedFriction::kRelease only; plain methods are what their names say.
 struct Guards {
-  bool start = false;   ///< After three sweeps impulses were worse than none, and scaled down.
+  bool start = false;   ///< After the first sweeps impulses were worse than none, and scaled down.
   bool step = false;    ///< A subspace step was undone: it put in energy, threw or flung bodies, or
                         ///< left impulses that floats cannot hold against each other.
   bool result = false;  ///< The impulses of the last sweep were worse than none, and scaled down.

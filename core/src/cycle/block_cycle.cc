@@ -61,14 +61,25 @@ void BlockCycle::Begin() {
   CloseGroups();
 }
 
-void BlockCycle::GuardStart() {
+void BlockCycle::GuardStart(int sweeps) {
   if (!IsGuarded(frame_->settings)) return;
-  const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kGuard});
-  merits_.Find(frame_->blocks, islands_.groups());
-  scales_.assign(islands_.count(), 1);
+  const auto due = [this, sweeps](int i) {
+    return !islands_[i].done() && sweeps == GuardedSweep(frame_->plan().islands()[i].joints);
+  };
   bool any = false;
+  chosen_.Clear();
   for (int i = 0; i < islands_.count(); ++i) {
-    if (islands_[i].done() || !merits_.of(i).is_worse_than_none()) continue;
+    if (!due(i)) continue;
+    chosen_.Add(i);
+    any = true;
+  }
+  if (!any) return;
+  const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kGuard});
+  merits_.Find(frame_->blocks, chosen_.groups());
+  scales_.assign(islands_.count(), 1);
+  any = false;
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!due(i) || !merits_.of(i).is_worse_than_none()) continue;
     scales_[i] = static_cast<float>(merits_.of(i).best_scale());
     islands_.report(i).guards.start = true;
     nncg_.Forget(i);
@@ -121,7 +132,7 @@ void BlockCycle::Round() {
     whole = Sweep(std::min(end - islands_.SweepsMade(), unseen));
     const int made = islands_.SweepsMade();
     if (whole && made == 1) MarkStart();
-    if (whole && made == kGuardedSweep) GuardStart();
+    if (whole && made <= kGuardedSweep) GuardStart(made);
     if (whole && made >= kMarkedSweep) islands_.SeeRuns();
     if (!whole || made == end) trials_.Judge(made - before);
     JudgeIslands(whole);

@@ -32,8 +32,9 @@ class BlockCycle {
 
  private:
   void Begin();
-  /// Scales impulses that are worse than none after the first sweeps.
-  void GuardStart();
+  /// Scales impulses of the start that are worse than none where they are judged after so many
+  /// sweeps.
+  void GuardStart(int sweeps);
   /// Likewise impulses in the end.
   void GuardResult();
   /// See SettlesFriction().

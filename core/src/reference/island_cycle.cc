@@ -29,6 +29,7 @@ IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Se
   const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
   if (asked) report_.no_step = NoStep::kEnded;
   guards_ = IsGuarded(settings_);
+  joints_ = !std::ranges::all_of(island_.rows, HasBounds);
   report_.residual_before = MeasureResidual(island_, at_.state);
   if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
 }
@@ -95,7 +96,7 @@ bool IslandCycle::SweepOnce(BudgetMeter* meter) {
     meter->Charge(WorkKind::kSweep, end - begin);
   }
   ++at_.sweeps;
-  if (at_.sweeps == kGuardedSweep && GuardState()) {
+  if (at_.sweeps == GuardedSweep(joints_) && GuardState()) {
     report_.guards.start = true;
     return true;
   }
@@ -188,13 +189,7 @@ void IslandCycle::SettleFriction() {
   const bool limited =
       settings_.budget.kind() != Budget::Kind::kUnlimited || settings_.tuning.replay != nullptr;
   const bool ends_rough = at_.stop == StopReason::kSweepLimit && at_.sweeps > 0;
-  const auto is_joint = [](const PackedRow& row) {
-    return row.parent == kNoRow && row.lo == -kInfinity && row.hi == kInfinity;
-  };
-  if (!SettlesFriction(settings_) || limited || !ends_rough ||
-      std::any_of(island_.rows.begin(), island_.rows.end(), is_joint)) {
-    return;
-  }
+  if (!SettlesFriction(settings_) || limited || !ends_rough || joints_) return;
   // rows that took part in the last sweep do
   SweepFriction(island_, at_.sweeps - 1, settings_.tuning.lifted_friction, &at_.state);
 }

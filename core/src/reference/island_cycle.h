@@ -69,6 +69,7 @@ class IslandCycle {
   Residual residual_;  ///< before a step
   bool step_next_ = false;
   bool guards_ = false;
+  bool joints_ = false;  ///< some row has no bounds
   IslandReport report_;
 };
 

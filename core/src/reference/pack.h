@@ -49,6 +49,11 @@ struct IslandState {
   Array<Vector6> u;  ///< bodies + 1; the first belongs to what does not move and stays 0
 };
 
+/// False: a row of a joint.
+inline bool HasBounds(const PackedRow& row) {
+  return row.parent != kNoRow || row.lo != -kInfinity || row.hi != kInfinity;
+}
+
 struct Bounds {
   double lo, hi;
 };

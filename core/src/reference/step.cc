@@ -9,10 +9,6 @@
 namespace cairn {
 namespace {
 
-bool HasBounds(const PackedRow& row) {
-  return row.parent != kNoRow || row.lo != -kInfinity || row.hi != kInfinity;
-}
-
 /// W = 1 / (E + eps d) on free rows, 0 elsewhere. eps d is the proximal term: the step minimises
 /// the energy plus eps d (x - x_start)^2 / 2, because the free rows of a contact face are redundant
 /// and contradict each other.

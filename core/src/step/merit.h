@@ -81,10 +81,14 @@ inline bool IsFlung(const IslandMotion& before, const IslandMotion& after, doubl
 /// sweeps wants the start, and friction that is held is no minimum of anything.
 bool IsGuarded(const Settings& settings);
 
-/// Sweeps after which the start is judged. Where a point of contact was lost with what it carried,
-/// the rest of a good start is worth less than none, and one sweep mends that: scaled down at once,
-/// a tower would lose all of its warm start.
+/// Of an island without joints.
 inline constexpr int kGuardedSweep = 3;
+
+/// Sweeps after which the start of an island is judged. Where a point of contact was lost with what
+/// it carried, the rest of a good start is worth less than none, and a sweep mends most of that:
+/// scaled down at once, a tower would lose all of its warm start. But sweeps smooth a rotten start,
+/// too, before it is seen, and trees and hubs of joints grow wild by what that lets through.
+inline int GuardedSweep(bool joints) { return joints ? 1 : kGuardedSweep; }
 
 /// Merits of islands in blocks, the same for an island whatever shares its lanes.
 class IslandMerits {

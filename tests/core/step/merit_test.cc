@@ -174,6 +174,22 @@ TEST(Guards, KeepAStartThatLostAPointOfContact) {
   }
 }
 
+// Sweeps would smooth it before it is seen.
+TEST(Guards, ScaleAStartOfJointsAfterOneSweep) {
+  const Scene scene = test::HangingChain(6, 10);
+  std::vector<double> rotten = test::Solve(test::PlainSweeps(200), scene).x;
+  for (double& x : rotten) x *= 1000;
+  for (const Path path : kPaths) {
+    EXPECT_TRUE(test::Solve(SweepsOn(path, 1), scene, rotten).report.islands[0].guards.start);
+  }
+  const Scene tower = test::Tower(6);
+  rotten = test::Solve(test::PlainSweeps(200), tower).x;
+  for (double& x : rotten) x *= 1000;
+  for (const Path path : kPaths) {
+    EXPECT_FALSE(test::Solve(SweepsOn(path, 2), tower, rotten).report.islands[0].guards.start);
+  }
+}
+
 TEST(Guards, LeaveAStartAloneThatNobodySweeps) {
   const Scene scene = test::Tower(2);
   std::vector<double> rotten(scene.rows.size(), 0.0);
