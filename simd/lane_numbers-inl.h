@@ -116,18 +116,19 @@ inline void AddEnergies(const PairBlock* blocks, const BlockError* errors, int c
 
 /// Of the first @p lanes lanes.
 template <int lanes>
-HWY_INLINE bool FindGainsOf(const PairBlock& block, const Line* lines, const Line* x, double* gain,
-                            double* square) {
+HWY_INLINE RowsOfBlock FindGainsOf(const PairBlock& block, const Line* lines, const Line* x,
+                                   double* gain, double* square) {
   double gains[lanes] = {}, squares[lanes] = {};
-  bool soft = false;
+  RowsOfBlock some;
   const Line* row = lines + PairLines(block.form);
   for (int i = 0; i < block.row_count; ++i) {
     const Line& target = row[JacobianLines(block.form)];
     for (int l = 0; l < lanes; ++l) {
       gains[l] += static_cast<double>(target.lane[l]) * static_cast<double>(x[i].lane[l]);
     }
+    some.bounded = some.bounded || block.rows[i].bound == RowBound::kOwn;
     if (block.rows[i].soft) {
-      soft = true;
+      some.soft = true;
       const Line& compliance = row[JacobianLines(block.form) + 2];
       for (int l = 0; l < lanes; ++l) {
         const double impulse = static_cast<double>(x[i].lane[l]);
@@ -138,11 +139,11 @@ HWY_INLINE bool FindGainsOf(const PairBlock& block, const Line* lines, const Lin
   }
   for (int l = 0; l < kLanes; ++l) gain[l] = l < lanes && l < block.lanes ? gains[l] : 0;
   for (int l = 0; l < kLanes; ++l) square[l] = l < lanes && l < block.lanes ? squares[l] : 0;
-  return soft;
+  return some;
 }
 
-inline bool FindGains(const PairBlock& block, const Line* lines, const Line* x, double* gain,
-                      double* square) {
+inline RowsOfBlock FindGains(const PairBlock& block, const Line* lines, const Line* x, double* gain,
+                             double* square) {
   if (block.lanes <= 4) return FindGainsOf<4>(block, lines, x, gain, square);
   if (block.lanes <= 8) return FindGainsOf<8>(block, lines, x, gain, square);
   return FindGainsOf<kLanes>(block, lines, x, gain, square);

@@ -21,6 +21,12 @@ struct Moving {
   Numbers* direction;
 };
 
+/// What some row of a block is.
+struct RowsOfBlock {
+  bool soft = false;     ///< without one all squares are 0
+  bool bounded = false;  ///< has bounds of its own
+};
+
 /// Passes over numbers of lanes that relax nothing. Same bits on every target.
 struct LaneKernels {
   /// now += beta direction, direction := keep (now - last), last := now: impulses of so many
@@ -43,10 +49,9 @@ struct LaneKernels {
                        double* sums);
 
   /// target'x and x'E x [J] of the rows of one block, to be written: kLanes numbers each, 0 in
-  /// lanes that are not used. @p lines: the floats of the block; @p x: its impulses. False if no
-  /// row is soft, and so all squares are 0.
-  bool (*find_gains)(const PairBlock& block, const Line* lines, const Line* x, double* gain,
-                     double* square);
+  /// lanes that are not used. @p lines: the floats of the block; @p x: its impulses.
+  RowsOfBlock (*find_gains)(const PairBlock& block, const Line* lines, const Line* x, double* gain,
+                            double* square);
   /// |u|^2 of so many bodies.
   void (*find_squares)(const BodyLane* bodies, int count, double* squares);
   /// The largest |number|; what is not a number is passed over.

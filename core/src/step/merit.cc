@@ -127,11 +127,11 @@ void IslandMerits::FindOfUnit(BlockFrame* frame, const Unit& unit) {
   const Group& group = plan.groups()[unit.group];
   for (int b = unit.first_block; b < unit.first_block + unit.blocks; ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
-    of_blocks_[b].soft =
+    const simd::RowsOfBlock some =
         kernels.find_gains(block, data.data.data() + block.data, data.x.data() + block.x,
                            gains_.data() + size_t{kLanes} * b,
                            SquaresOf(group) + size_t{kLanes} * (b - group.first_block));
-    of_blocks_[b].without_zero = WithoutZero(block, data);
+    of_blocks_[b] = {some.bounded ? WithoutZero(block, data) : 0, some.soft};
   }
 }
 
