@@ -97,6 +97,19 @@ double MaxPenetration(const World& world) {
   return deepest;
 }
 
+double FrictionTwist(const World& world) {
+  double sum = 0;
+  ForEachManifold(world, [&](const btPersistentManifold& manifold) {
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      const btVector3 apart = point.getPositionWorldOnA() - point.getPositionWorldOnB();
+      sum += static_cast<double>(apart.length()) *
+             std::hypot(point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2);
+    }
+  });
+  return sum;
+}
+
 int ContactPoints(const World& world) {
   int points = 0;
   ForEachManifold(

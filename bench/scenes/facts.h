@@ -10,6 +10,9 @@ namespace cairn::bench {
 /// How deep the deepest contact point is [m], 0 if nothing overlaps. As of the last step's
 /// collision detection, in Bullet's measure: a convex shape includes its collision margin.
 double MaxPenetration(const World& world);
+/// Impulses of friction times how far their two points are apart, summed [N m s], after a step: it
+/// turns the whole by that at most.
+double FrictionTwist(const World& world);
 
 /// Points of contact of the last step's collision detection, those that still are apart included.
 int ContactPoints(const World& world);

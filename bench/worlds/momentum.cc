@@ -71,6 +71,7 @@ void MomentumWatch::End(const World& world, double time_step) {
   for (const btJointFeedback& joint : feedback_) {
     owed_by_rows_ += gap_ * time_step * double(joint.m_appliedForceBodyA.length());
   }
+  owed_by_rows_ += FrictionTwist(world);
   angular_ = std::max(angular_, angular_drift_.norm() - owed_by_rows_);
 }
 

@@ -12,9 +12,9 @@ namespace cairn::bench {
 /// How far a solver lets momentum stray in a world without anything static: what velocities change
 /// by in each step, seen where the bodies were before it. What the integrator makes of bodies that
 /// turn does not count, nor does gravity. Of angular momentum the solver owes nothing that Bullet's
-/// rows take: a joint acts at two anchors, and where these have parted, its force turns the whole
-/// by at most force times gap. In double precision; angular momentum about the common centre of
-/// mass.
+/// rows take: a joint acts at two anchors, friction at a point of each body, and where these have
+/// parted, a force turns the whole by at most force times gap. In double precision; angular
+/// momentum about the common centre of mass.
 /// @pre no body has gyroscopic terms
 class MomentumWatch {
  public:
@@ -45,7 +45,7 @@ class MomentumWatch {
   std::vector<Place> places_;
   std::deque<btJointFeedback> feedback_;  ///< one per joint
   double gap_ = 0;                        ///< the largest before the step [m]
-  double owed_by_rows_ = 0;               ///< sum of force times gap [N m s]
+  double owed_by_rows_ = 0;               ///< sum of impulses times gap [N m s]
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   double mass_ = 0;
   Momenta before_;

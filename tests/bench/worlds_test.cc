@@ -333,6 +333,25 @@ TEST(Momentum, IsKeptByFreeFallAndNotByAPush) {
   EXPECT_GT(watch.angular(), 0.1);
 }
 
+// Where balls overlap, friction acts at a point of each, and turns both together.
+TEST(Momentum, OwesNothingOfWhatFrictionTurnsAtDepth) {
+  btSequentialImpulseConstraintSolver solver;
+  World world(&solver);
+  btRigidBody* const a = world.AddSphere(btScalar(0.3), {.mass = 2, .pose = At(0, 10, 0)});
+  btRigidBody* const b =
+      world.AddSphere(btScalar(0.3), {.mass = 1, .pose = At(btScalar(0.55), 10, 0)});
+  a->setLinearVelocity(btVector3(1, 0, 0));
+  a->setAngularVelocity(btVector3(0, 0, 10));
+  a->setFlags(0);
+  b->setFlags(0);
+  MomentumWatch watch;
+  watch.Begin(world);
+  world.Step();
+  watch.End(world, double(world.time_step()));
+  EXPECT_GT(FrictionTwist(world), 1e-3);
+  EXPECT_LT(watch.angular(), 1e-6);
+}
+
 TEST(Worlds, DoNotDependOnTheNumberOfJobs) {
   CampaignOptions options = Options({0, 5, 9, 13, 17, 21, 33, 38}, {Cairn()});
   const std::vector<WorldResult> alone = RunWorlds(options);
