@@ -43,6 +43,31 @@ int LeastSweeps(const Settings& settings) {
   return own ? settings.tuning.min_sweeps : Tuning::kLateSweeps;
 }
 
+/// A substep that fitted.
+struct Substep {
+  std::string world;
+  int frame = 0;
+  double cpu_us = 0;  ///< over the budget
+  bullet::SubstepTimes times;
+  int islands = 0, bodies = 0, rows = 0, sweeps = 0, factorisations = 0, kept = 0, undone = 0;
+};
+
+Substep Describe(const bullet::ConstraintSolver& solver, double cpu_us) {
+  const Report& report = solver.report();
+  Substep substep = {.cpu_us = cpu_us,
+                     .times = solver.times(),
+                     .islands = static_cast<int>(report.islands.size()),
+                     .sweeps = report.sweeps,
+                     .kept = report.steps_accepted,
+                     .undone = report.steps_restored};
+  for (const IslandReport& island : report.islands) {
+    substep.bodies += island.bodies;
+    substep.rows += island.rows;
+    substep.factorisations += island.factorisations;
+  }
+  return substep;
+}
+
 /// What came of the substeps of a row of the table.
 struct Lane {
   /// @param late  the time was up before the sweeps that are made in any case were done
@@ -61,11 +86,27 @@ struct Lane {
     wall.push_back(wall_us);
     if (!time.preempted) wall_calm.push_back(wall_us);
   }
+  /// Of the substep kept last, if it is one of the @p most latest.
+  void KeepWorst(const bullet::ConstraintSolver& solver, int most) {
+    if (most == 0) return;
+    const auto earlier = [](const Substep& a, const Substep& b) { return a.cpu_us > b.cpu_us; };
+    const double cpu_us = cpu.back();
+    const bool full = static_cast<int>(worst.size()) == most;
+    if (full && worst.back().cpu_us >= cpu_us) return;
+    if (full) worst.pop_back();
+    Substep substep = Describe(solver, cpu_us);
+    substep.world = world;
+    substep.frame = frame;
+    worst.insert(std::upper_bound(worst.begin(), worst.end(), substep, earlier), substep);
+  }
 
   int substeps = 0, preempted = 0, steps = 0;
   std::vector<double> cpu, wall, wall_calm;  ///< over the budget, of those that fit [us]
   std::vector<double> too_late;              ///< CPU time, of the others
   std::vector<double> sweeps, residuals;
+  std::vector<Substep> worst;  ///< the latest first
+  std::string world;           ///< that runs
+  int frame = 0;               ///< of it
 };
 
 /// Cairn in a world, timed where the world waits for it.
@@ -74,6 +115,7 @@ class TimedSolver final : public btConstraintSolver {
   TimedSolver(const DeadlineOptions& options, double budget_ms)
       : budget_ms_(budget_ms),
         least_sweeps_(LeastSweeps(options.settings)),
+        worst_(options.worst),
         on_cpu_(options.clock == BudgetClock::kThreadCpu) {
     Settings& settings = solver_.settings() = options.settings;
     settings.budget = Budget::Time(std::chrono::nanoseconds(std::llround(budget_ms * 1e6)));
@@ -99,8 +141,9 @@ class TimedSolver final : public btConstraintSolver {
     if (lane_ == nullptr || !solved) return;
     // a thread that lost its core is late for another reason
     const bool fitted = !on_cpu_ && time.preempted;
-    lane_->Keep(time, solver_.report(), budget_ms_,
-                !fitted && CannotFit(solver_.report(), least_sweeps_));
+    const bool late = !fitted && CannotFit(solver_.report(), least_sweeps_);
+    lane_->Keep(time, solver_.report(), budget_ms_, late);
+    if (!late) lane_->KeepWorst(solver_, worst_);
   }
   void reset() override { solver_.reset(); }
   btConstraintSolverType getSolverType() const override { return solver_.getSolverType(); }
@@ -109,7 +152,7 @@ class TimedSolver final : public btConstraintSolver {
   bullet::ConstraintSolver solver_;
   ThreadCpuClock cpu_clock_;
   double budget_ms_;
-  int least_sweeps_;
+  int least_sweeps_, worst_;
   bool on_cpu_;
   Lane* lane_ = nullptr;
 };
@@ -120,7 +163,8 @@ void RunScene(const SceneChoice& choice, const DeadlineOptions& options, double 
   cli::SceneRun run(choice, &solver);
   run.Skip(choice.FirstFrame(options.warm_up));
   solver.KeepIn(lane);
-  for (int i = 0; i < options.frames; ++i) run.Step();
+  lane->world = NameOf(choice);
+  for (lane->frame = 0; lane->frame < options.frames; ++lane->frame) run.Step();
 }
 
 void RunRandomWorld(std::uint64_t seed, const DeadlineOptions& options, double budget_ms,
@@ -128,10 +172,30 @@ void RunRandomWorld(std::uint64_t seed, const DeadlineOptions& options, double b
   TimedSolver solver(options, budget_ms);
   bench::RandomWorld world({.seed = seed}, &solver);
   const int frames = world.Frames(options.seconds);
+  lane->world = fmt::format("seed {}", seed);
   for (int frame = 0; frame < frames; ++frame) {
     if (frame == options.warm_up) solver.KeepIn(lane);
+    lane->frame = frame;
     world.Step();
   }
+}
+
+/// What the machine does to a thread that only waits for its time to be up: no solver keeps a
+/// budget better than that.
+Lane WaitForTheClock(const DeadlineOptions& options, double budget_ms) {
+  const auto times = static_cast<int>(1e3 * options.seconds / std::max(budget_ms, 0.05));
+  const cli::SolverClock clock = options.clock == BudgetClock::kThreadCpu
+                                     ? cli::SolverClock::kThreadCpu
+                                     : cli::SolverClock::kWall;
+  Lane lane;
+  for (int i = 0; i < times; ++i) {
+    const cli::ThreadStopwatch stopwatch;
+    const double end = cli::Now(clock) + budget_ms;
+    while (cli::Now(clock) < end) {
+    }
+    lane.Keep(stopwatch.Read(), Report(), budget_ms, false);
+  }
+  return lane;
 }
 
 void AddRow(const std::string& name, double budget_ms, const Lane& lane, cli::TextTable* table) {
@@ -146,6 +210,21 @@ void AddRow(const std::string& name, double budget_ms, const Lane& lane, cli::Te
                          fmt::format("{:.2g}", cli::Mean(lane.residuals))});
 }
 
+void AddWorst(double budget_ms, const Lane& lane, cli::TextTable* table) {
+  const auto us = [](std::chrono::nanoseconds time) {
+    return fmt::format("{:.0f}", 1e-3 * static_cast<double>(time.count()));
+  };
+  for (const Substep& substep : lane.worst) {
+    table->rows.push_back(
+        {substep.world, fmt::format("{:g}", budget_ms), fmt::format("{}", substep.frame),
+         fmt::format("{:.0f}", substep.cpu_us), us(substep.times.build), us(substep.times.solve),
+         us(substep.times.write), fmt::format("{}", substep.islands),
+         fmt::format("{}", substep.bodies), fmt::format("{}", substep.rows),
+         fmt::format("{}", substep.sweeps), fmt::format("{}", substep.factorisations),
+         fmt::format("{} / {}", substep.kept, substep.undone)});
+  }
+}
+
 }  // namespace
 
 void PrintDeadlines(const DeadlineOptions& options, const std::string& command) {
@@ -158,18 +237,29 @@ void PrintDeadlines(const DeadlineOptions& options, const std::string& command) 
       "substeps are not in\n  the columns before, and their median is of CPU time\n"
       "- {} frames of a scene after {}; {} random worlds of {:g} s in one row, seeds from {} on; "
       "min_sweeps {}, threads {}\n"
-      "- the clock of the budgets: {}\n\n",
+      "- the clock of the budgets: {}\n"
+      "- the clock alone: a loop for {:g} s that only waits for the time to be up, again and "
+      "again; "
+      "what it is late\n  by comes from the machine\n\n",
       options.frames, options.warm_up, options.worlds, options.seconds, options.first_seed,
       LeastSweeps(options.settings), options.settings.threads,
-      options.clock == BudgetClock::kThreadCpu ? "CPU time of the thread" : "wall");
+      options.clock == BudgetClock::kThreadCpu ? "CPU time of the thread" : "wall",
+      options.seconds);
   cli::TextTable table = cli::TableOf(
       {"world", "budget ms", "substeps", "CPU over us", "calm wall over us", "wall over us",
        "preempted %", "too late %", "by us", "sweeps p50", "steps a substep", "mean max m/s"});
+  cli::TextTable worst = cli::TableOf({"world", "budget ms", "frame", "CPU over us", "build us",
+                                       "solve us", "write us", "islands", "bodies", "rows",
+                                       "sweeps", "factorisations", "steps kept / undone"});
+  for (const double budget : options.budgets_ms) {
+    AddRow("the clock alone", budget, WaitForTheClock(options, budget), &table);
+  }
   for (const SceneChoice& scene : options.scenes) {
     for (const double budget : options.budgets_ms) {
       Lane lane;
       RunScene(scene, options, budget, &lane);
       AddRow(NameOf(scene), budget, lane, &table);
+      AddWorst(budget, lane, &worst);
     }
   }
   for (const double budget : options.budgets_ms) {
@@ -178,8 +268,10 @@ void PrintDeadlines(const DeadlineOptions& options, const std::string& command) 
       RunRandomWorld(options.first_seed + static_cast<std::uint64_t>(i), options, budget, &lane);
     }
     if (options.worlds > 0) AddRow("random worlds", budget, lane, &table);
+    AddWorst(budget, lane, &worst);
   }
   fmt::print("{}\n", table.ToMarkdown());
+  if (!worst.rows.empty()) fmt::print("The latest substeps:\n\n{}\n", worst.ToMarkdown());
 }
 
 }  // namespace cairn::frames

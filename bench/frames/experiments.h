@@ -83,6 +83,7 @@ struct DeadlineOptions {
   int warm_up = 30;    ///< Frames of each world that do not count.
   int frames = 240;    ///< Of a scene, after those.
   double seconds = 3;  ///< Of a random world, with those.
+  int worst = 0;       ///< Substeps of each row of the table that are shown one by one.
   BudgetClock clock = BudgetClock::kWall;
   Settings settings;  ///< All but the budget and its clock.
 };

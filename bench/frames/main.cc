@@ -87,6 +87,9 @@ void AddDeadlines(CLI::App* app, DeadlineOptions* options) {
   app->add_option("--seconds", options->seconds, "Of a random world")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app->add_option("--worst", options->worst, "The latest substeps of each row, one by one")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   const std::map<std::string, BudgetClock> clocks = {{"wall", BudgetClock::kWall},
                                                      {"cpu", BudgetClock::kThreadCpu}};
   app->add_option("--clock", options->clock, "That budgets are measured with: wall or cpu")
