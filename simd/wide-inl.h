@@ -8,6 +8,7 @@
 #define CAIRN_SIMD_WIDE_INL_H_
 #endif
 
+#include <cstddef>
 #include <cstdint>
 
 #include <hwy/highway.h>
@@ -29,12 +30,12 @@ constexpr int kWidth = static_cast<int>(hn::MaxLanes(D()));
 /// on all registers before the next, which gives the core independent chains to work on.
 template <class D, int n>
 struct Registers {
-  static constexpr int kRegisters = n;
+  static constexpr int kRegisters = n, kLaneCount = n * kWidth<D>;
   Registers<D, n / 2> lo, hi;
 };
 template <class D>
 struct Registers<D, 1> {
-  static constexpr int kRegisters = 1;
+  static constexpr int kRegisters = 1, kLaneCount = kWidth<D>;
   hn::Vec<D> v;
 };
 /// The first @p lanes floats of a line.
@@ -58,35 +59,89 @@ CAIRN_BINARY(Min)
 CAIRN_BINARY(Max)
 #undef CAIRN_BINARY
 
-template <class D>
+/// Lines from a lane on: the numbers of a run.
+struct FromLane {
+  float* lane;
+
+  HWY_INLINE float* operator[](int line) const { return lane + line * kLanes; }
+  HWY_INLINE void operator+=(int lines) { lane += lines * kLanes; }
+  HWY_INLINE FromLane operator+(int lines) const { return {lane + lines * kLanes}; }
+};
+struct ConstFromLane {
+  const float* lane;
+
+  HWY_INLINE const float* operator[](int line) const { return lane + line * kLanes; }
+  HWY_INLINE void operator+=(int lines) { lane += lines * kLanes; }
+  HWY_INLINE ConstFromLane operator+(int lines) const { return {lane + lines * kLanes}; }
+};
+
+/// Registers of whole lines are aligned, those of runs may begin at any lane.
+template <bool aligned, class D>
 HWY_INLINE void LoadFrom(const float* from, Registers<D, 1>* a) {
-  a->v = hn::Load(D(), from);
+  if constexpr (aligned) {
+    a->v = hn::Load(D(), from);
+  } else {
+    a->v = hn::LoadU(D(), from);
+  }
 }
-template <class D, int n>
+template <bool aligned, class D, int n>
 HWY_INLINE void LoadFrom(const float* from, Registers<D, n>* a) {
-  LoadFrom(from, &a->lo);
-  LoadFrom(from + n / 2 * kWidth<D>, &a->hi);
+  LoadFrom<aligned>(from, &a->lo);
+  LoadFrom<aligned>(from + n / 2 * kWidth<D>, &a->hi);
 }
 template <class W>
-HWY_INLINE W LoadLine(const Line& line) {
+HWY_INLINE W LoadLanes(const float* from) {
   W a;
-  LoadFrom(line.lane, &a);
+  LoadFrom<W::kLaneCount == kLanes>(from, &a);
   return a;
 }
 
-template <class D>
+template <bool aligned, class D>
 HWY_INLINE void StoreTo(float* to, const Registers<D, 1>& a) {
-  hn::Store(a.v, D(), to);
+  if constexpr (aligned) {
+    hn::Store(a.v, D(), to);
+  } else {
+    hn::StoreU(a.v, D(), to);
+  }
 }
-template <class D, int n>
+template <bool aligned, class D, int n>
 HWY_INLINE void StoreTo(float* to, const Registers<D, n>& a) {
-  StoreTo(to, a.lo);
-  StoreTo(to + n / 2 * kWidth<D>, a.hi);
+  StoreTo<aligned>(to, a.lo);
+  StoreTo<aligned>(to + n / 2 * kWidth<D>, a.hi);
 }
 template <class W>
-HWY_INLINE void StoreLine(const W& a, Line* line) {
-  StoreTo(line->lane, a);
+HWY_INLINE void StoreLanes(const W& a, float* to) {
+  StoreTo<W::kLaneCount == kLanes>(to, a);
 }
+
+/// Which lanes are the first few.
+template <class D, int n>
+struct FirstLanes {
+  FirstLanes<D, n / 2> lo, hi;
+
+  HWY_INLINE explicit FirstLanes(int lanes) : lo(lanes), hi(lanes - n / 2 * kWidth<D>) {}
+  HWY_INLINE Registers<D, n> Choose(const Registers<D, n>& first,
+                                    const Registers<D, n>& others) const {
+    return {lo.Choose(first.lo, others.lo), hi.Choose(first.hi, others.hi)};
+  }
+};
+template <class D>
+struct FirstLanes<D, 1> {
+  hn::Mask<D> mask;
+
+  HWY_INLINE explicit FirstLanes(int lanes)
+      : mask(hn::FirstN(D(), lanes > 0 ? static_cast<std::size_t>(lanes) : 0)) {}
+  HWY_INLINE Registers<D, 1> Choose(const Registers<D, 1>& first,
+                                    const Registers<D, 1>& others) const {
+    return {hn::IfThenElse(mask, first.v, others.v)};
+  }
+};
+template <class W>
+struct FirstLanesFor;
+template <class D, int n>
+struct FirstLanesFor<Registers<D, n>> {
+  using Type = FirstLanes<D, n>;
+};
 
 template <class D>
 HWY_INLINE void Clear(Registers<D, 1>* a) {

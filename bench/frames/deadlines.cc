@@ -54,7 +54,8 @@ struct Substep {
 
 Substep Describe(const bullet::ConstraintSolver& solver, double cpu_us) {
   const Report& report = solver.report();
-  Substep substep = {.cpu_us = cpu_us,
+  Substep substep = {.world = {},
+                     .cpu_us = cpu_us,
                      .times = solver.times(),
                      .islands = static_cast<int>(report.islands.size()),
                      .sweeps = report.sweeps,

@@ -78,8 +78,9 @@ PairScene::PairScene(const RowScene& scene)
   for (size_t first = 0; first < scene.pairs.size(); first += kLanes) {
     AddBlock(scene, static_cast<int>(first));
   }
-  for (size_t i = 0; i + 1 < blocks_.size(); ++i) {
-    blocks_[i].like_next = Alike(blocks_[i], blocks_[i + 1]);
+  for (size_t i = 0; i < blocks_.size(); ++i) {
+    const bool alike = i + 1 < blocks_.size() && Alike(blocks_[i], blocks_[i + 1]);
+    runs_.push_back({static_cast<int>(i), 0, kLanes, alike});
   }
   bodies_.resize(scene.bodies.size());
   errors_.resize(blocks_.size());
@@ -120,7 +121,9 @@ void PairScene::Reset() {
 
 simd::PairWork PairScene::Work() {
   return {.blocks = blocks_.data(),
-          .count = static_cast<int>(blocks_.size()),
+          .runs = runs_.data(),
+          .run_count = static_cast<int>(runs_.size()),
+          .block_count = static_cast<int>(blocks_.size()),
           .data = data_.data(),
           .x = x_.data(),
           .bodies = bodies_.data(),

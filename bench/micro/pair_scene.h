@@ -39,6 +39,7 @@ class PairScene {
 
   std::vector<std::vector<simd::RowShape>> layouts_;
   std::vector<simd::PairBlock> blocks_;
+  std::vector<simd::LaneRun> runs_;  ///< each a block
   std::vector<simd::Line> data_, x_;
   std::vector<simd::BodyLane> bodies_;
   std::vector<simd::BlockError> errors_;

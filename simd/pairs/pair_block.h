@@ -6,9 +6,9 @@
 
 namespace cairn::simd {
 
-// A lane is a pair of bodies with all its rows, a block is 16 lanes that share no body, on every
-// target: one register of AVX-512, two of AVX2, four of SSE4. Layout, padding and results do not
-// depend on the CPU.
+// A lane is a pair of bodies with all its rows, a block is 16 lanes with rows that look alike, on
+// every target: one register of AVX-512, two of AVX2, four of SSE4. Lanes of a block that share no
+// body are relaxed together, see LaneRun. Layout, padding and results do not depend on the CPU.
 //
 // Velocities are whitened (core/src/problem/whitening.h): u = G' x, so that one vector G per row
 // serves as J and as M^-1 J'.
@@ -92,7 +92,7 @@ constexpr int RowLines(PairForm form, const RowShape& row) {
          BoundLines(row.bound);
 }
 
-/// 16 pairs that share no body. Lines of unused lanes may hold anything.
+/// 16 pairs with rows that look alike. Lines of unused lanes may hold anything.
 struct PairBlock {
   std::int32_t a[kLanes];  ///< Slots of the bodies; unused lanes: 0, which holds zeros.
   std::int32_t b[kLanes];  ///< Likewise; all 0 for kSingle.
@@ -102,9 +102,22 @@ struct PairBlock {
   std::uint32_t data;  ///< First line of the block in PairWork::data.
   std::uint32_t x;     ///< Its first line in PairWork::x, one for each row.
   PairForm form;
-  /// The next block has the same form and the same rows, and shares no body with this one.
+};
+
+/// Lanes of a block that share no body: they are relaxed at a time, in registers of WidthOf()
+/// lanes.
+struct LaneRun {
+  std::int32_t block;
+  std::int16_t first;  ///< first + WidthOf(lanes) <= kLanes
+  std::int16_t lanes;  ///< Above 8 the block has no other run.
+  /// The next run has the same form and the same rows, and shares no body with this one, and both
+  /// are all that their blocks have.
   bool like_next;
 };
+
+/// Lanes of the registers that so many lanes are relaxed in: small worlds have short runs, and a
+/// division of sixteen numbers takes four times as long as one of four.
+constexpr int WidthOf(int lanes) { return lanes <= 4 ? 4 : lanes <= 8 ? 8 : kLanes; }
 
 /// How far the rows of a lane were from their laws; see Residual.
 struct BlockError {

@@ -149,16 +149,28 @@ void RunLane(Pass pass, const PairWork& work, const PairBlock& block, int lane, 
   if (pass != Pass::kMeasure) Scatter(block.form, state, a, b);
 }
 
+void DoLanes(Pass pass, const PairWork& work, int block, int first, int count) {
+  BlockError unused = {};
+  BlockError* const error = Measures(pass) ? &work.errors[block] : &unused;
+  for (int lane = first; lane < first + count; ++lane) {
+    error->max.lane[lane] = error->max_angular.lane[lane] = error->energy.lane[lane] = 0;
+    RunLane(pass, work, work.blocks[block], lane, error);
+  }
+}
+
 template <Pass pass>
 void Run(const PairWork& work) {
   const FlushDenormals flush;
-  BlockError unused;
-  for (int i = 0; i < work.count; ++i) {
-    BlockError* const error = Measures(pass) ? &work.errors[i] : &unused;
-    *error = {};
-    for (int lane = 0; lane < work.blocks[i].lanes; ++lane) {
-      RunLane(pass, work, work.blocks[i], lane, error);
-    }
+  for (int i = 0; i < work.run_count; ++i) {
+    const LaneRun& run = work.runs[i];
+    DoLanes(pass, work, run.block, run.first, run.lanes);
+  }
+}
+
+void MeasureBlocks(const PairWork& work) {
+  const FlushDenormals flush;
+  for (int block = work.first_block; block < work.first_block + work.block_count; ++block) {
+    DoLanes(Pass::kMeasure, work, block, 0, work.blocks[block].lanes);
   }
 }
 
@@ -167,7 +179,7 @@ void Run(const PairWork& work) {
 const PairKernels& ReferencePairKernels() {
   static constexpr PairKernels kKernels = {Run<Pass::kStart>, Run<Pass::kSweep>,
                                            Run<Pass::kMeasuredSweep>, Run<Pass::kFriction>,
-                                           Run<Pass::kMeasure>};
+                                           MeasureBlocks};
   return kKernels;
 }
 

@@ -6,20 +6,22 @@
 
 namespace cairn::simd {
 
-/// Blocks to work on, in this order. Blocks that are worked on at the same time share no body.
+/// Lanes to work on, in this order. What is worked on at the same time shares no body.
 struct PairWork {
   const PairBlock* blocks = nullptr;
-  int count = 0;
-  const Line* data = nullptr;  ///< Constant part of the rows.
-  Line* x = nullptr;           ///< Impulses.
-  BodyLane* bodies = nullptr;  ///< By slot.
-  /// One for each block. Read by nothing, written by the passes that measure.
+  const LaneRun* runs = nullptr;  ///< Of those blocks: what the passes that move something go over.
+  int run_count = 0;
+  int first_block = 0, block_count = 0;  ///< What measure() looks at: the blocks of those runs.
+  const Line* data = nullptr;            ///< Constant part of the rows.
+  Line* x = nullptr;                     ///< Impulses.
+  BodyLane* bodies = nullptr;            ///< By slot.
+  /// By block. Read by nothing, written by the passes that measure.
   BlockError* errors = nullptr;
   int sweep = 0;             ///< Sweeps of the Solve() made before this one.
   bool hold_lifted = false;  ///< LiftedFriction::kHold
 };
 
-/// What can be done with blocks. Same bits on every target.
+/// What can be done with them. Same bits on every target.
 struct PairKernels {
   using Kernel = void (*)(const PairWork& work);
 

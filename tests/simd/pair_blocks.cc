@@ -36,7 +36,8 @@ int DataLines(const BlockSpec& spec) {
 void ShuffleBodies(Random* random, PairScene* scene) {
   std::vector<std::int32_t> slots(scene->bodies.size() - 1);
   bool like_last = false;
-  for (PairBlock& block : scene->blocks) {
+  for (std::size_t b = 0; b < scene->blocks.size(); ++b) {
+    PairBlock& block = scene->blocks[b];
     // blocks that are alike share no body
     const int first = like_last ? 2 * kLanes : 0;
     if (!like_last) {
@@ -49,7 +50,7 @@ void ShuffleBodies(Random* random, PairScene* scene) {
       block.a[lane] = slots[first + 2 * lane];
       block.b[lane] = block.form == PairForm::kSingle ? 0 : slots[first + 2 * lane + 1];
     }
-    like_last = block.like_next;
+    like_last = scene->runs[b].like_next;
   }
 }
 
@@ -127,7 +128,9 @@ void PairScene::Run(PairKernels::Kernel kernel) {
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].rows = shapes[i].data();
   PairWork work;
   work.blocks = blocks.data();
-  work.count = static_cast<int>(blocks.size());
+  work.runs = runs.data();
+  work.run_count = static_cast<int>(runs.size());
+  work.block_count = static_cast<int>(blocks.size());
   work.data = data.data();
   work.x = x.data();
   work.bodies = bodies.data();
@@ -167,7 +170,8 @@ PairScene ZeroScene(const SceneSpec& spec) {
     block.data = data;
     block.x = x;
     block.form = from.form;
-    block.like_next = from.like_next;
+    const auto index = static_cast<std::int32_t>(scene.blocks.size());
+    scene.runs.push_back({index, 0, static_cast<std::int16_t>(from.lanes), from.like_next});
     scene.blocks.push_back(block);
     scene.shapes.push_back(from.rows);
     data += DataLines(from);
@@ -215,6 +219,47 @@ PairScene RandomScene(const SceneSpec& spec) {
     }
   }
   return scene;
+}
+
+void CutRuns(unsigned seed, PairScene* scene) {
+  Random random(seed);
+  const auto bodies = static_cast<int>(scene->bodies.size());
+  scene->runs.clear();
+  std::vector<std::vector<LaneRun>> of_blocks(scene->blocks.size());
+  for (std::size_t b = 0; b < scene->blocks.size(); ++b) {
+    PairBlock& block = scene->blocks[b];
+    for (int first = 0; first < block.lanes;) {
+      const int left = std::min(block.lanes - first, 8);
+      int lanes = 1 + random.Index(left);
+      if (first + WidthOf(lanes) > kLanes) lanes = 1 + random.Index(std::min(left, 4));
+      if (first + WidthOf(lanes) > kLanes) break;
+      of_blocks[b].push_back({static_cast<std::int32_t>(b), static_cast<std::int16_t>(first),
+                              static_cast<std::int16_t>(lanes), false});
+      first += lanes;
+    }
+    // what no run took is not used
+    block.lanes = of_blocks[b].back().first + of_blocks[b].back().lanes;
+    for (const LaneRun& run : of_blocks[b]) {
+      // any bodies, none twice
+      const int from = 1 + random.Index(bodies - 2 * run.lanes);
+      for (int lane = 0; lane < run.lanes; ++lane) {
+        block.a[run.first + lane] = from + 2 * lane;
+        if (block.form != PairForm::kSingle) block.b[run.first + lane] = from + 2 * lane + 1;
+      }
+    }
+    for (int lane = block.lanes; lane < kLanes; ++lane) block.a[lane] = block.b[lane] = 0;
+  }
+  // runs of a block in their order, those of others in between
+  for (bool any = true; any;) {
+    any = false;
+    for (std::vector<LaneRun>& runs : of_blocks) {
+      if (runs.empty()) continue;
+      any = true;
+      if (random.Index(3) == 0) continue;
+      scene->runs.push_back(runs.front());
+      runs.erase(runs.begin());
+    }
+  }
 }
 
 std::vector<RowShape> Manifold(const ManifoldSpec& spec) {

@@ -41,6 +41,7 @@ struct RowView {
 struct PairScene {
   std::vector<std::vector<RowShape>> shapes;  ///< for each block
   std::vector<PairBlock> blocks;
+  std::vector<LaneRun> runs;  ///< blocks as they are, or cut by CutRuns()
   std::vector<Line> data, x;
   std::vector<BodyLane> bodies;
   std::vector<BlockError> errors;
@@ -64,6 +65,10 @@ PairScene ZeroScene(const SceneSpec& spec);
 /// zero, and bounds that they break. Steps suit the rows: sweeps converge as a rule. The same
 /// numbers with every standard library.
 PairScene RandomScene(const SceneSpec& spec);
+
+/// Cuts blocks into runs, in an order of its own, and lets lanes of different runs share bodies.
+/// @pre it is a RandomScene() and no blocks are alike
+void CutRuns(unsigned seed, PairScene* scene);
 
 /// Contact points of a pair: a row that pushes for each, then the friction of each.
 struct ManifoldSpec {

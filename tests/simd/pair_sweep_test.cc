@@ -63,9 +63,9 @@ constexpr Step kSteps[] = {{"start", &PairKernels::start, 0},
                            {"sweep 3", &PairKernels::sweep, 3}};
 
 /// Every pass from states that the passes before it left, with and without hold_lifted.
-void ExpectBitsOfTheReference(const PairKernels& kernels, const SceneSpec& spec) {
+void ExpectBitsOfTheReference(const PairKernels& kernels, const PairScene& start) {
   for (const bool hold : {false, true}) {
-    PairScene expected = RandomScene(spec);
+    PairScene expected = start;
     expected.hold_lifted = hold;
     PairScene scene = expected;
     for (const Step& step : kSteps) {
@@ -76,6 +76,9 @@ void ExpectBitsOfTheReference(const PairKernels& kernels, const SceneSpec& spec)
       ASSERT_TRUE(IsFinite(scene)) << step.name;
     }
   }
+}
+void ExpectBitsOfTheReference(const PairKernels& kernels, const SceneSpec& spec) {
+  ExpectBitsOfTheReference(kernels, RandomScene(spec));
 }
 
 /// Each form, bound, softness, relaxation and limit of sweeps, with 1 to 16 lanes in turn.
@@ -157,6 +160,16 @@ TEST_P(PairKernelsOf, RandomScenesGiveTheBitsOfTheReference) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     ExpectBitsOfTheReference(kernels(), RandomSpec(seed));
+  }
+}
+
+TEST_P(PairKernelsOf, RunsThatShareBlocksAndBodiesGiveTheBitsOfTheReference) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    PairScene scene = RandomScene(RandomSpec(seed));
+    CutRuns(seed, &scene);
+    ExpectBitsOfTheReference(kernels(), scene);
+    if (HasFatalFailure()) return;
   }
 }
 

@@ -116,26 +116,51 @@ void BlockSteps::ReadIslands() {
 
 void BlockSteps::CountLines() {
   const Plan& plan = frame_->plan();
-  lines_.assign(plan.islands().size(), 0);
+  sweep_lines_.assign(plan.islands().size(), 0);
   // lanes of one colour and one shape, island by island
   alike_.assign(plan.islands().size(), {});
   const auto close = [this](int island) {
     const Alike& alike = alike_[island];
-    lines_[island] += alike.rows * ((alike.lanes + simd::kLanes - 1) / simd::kLanes);
+    sweep_lines_[island] += alike.rows * ((alike.lanes + simd::kLanes - 1) / simd::kLanes);
   };
-  for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
-    const simd::PairBlock& block = plan.blocks()[b];
-    const Alike here{plan.colour_of(b), block.rows, block.row_count, 0};
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      Alike& alike = alike_[plan.island_of(b, lane)];
+  for (int r = 0; r < static_cast<int>(plan.runs().size()); ++r) {
+    const simd::LaneRun& run = plan.runs()[r];
+    const simd::PairBlock& block = plan.blocks()[run.block];
+    const Alike here{plan.colour_of(r), block.rows, block.row_count, 0};
+    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+      const int island = plan.island_of(run.block, lane);
+      Alike& alike = alike_[island];
       if (alike.colour != here.colour || alike.shape != here.shape) {
-        close(plan.island_of(b, lane));
+        close(island);
         alike = here;
       }
       ++alike.lanes;
     }
   }
   for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
+  CountStepLines();
+}
+
+void BlockSteps::CountStepLines() {
+  const Plan& plan = frame_->plan();
+  step_lines_.assign(plan.islands().size(), 0);
+  latest_shape_.assign(plan.islands().size(), -1);
+  lanes_of_shapes_.clear();
+  for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
+    const simd::PairBlock& block = plan.blocks()[b];
+    for (int lane = 0; lane < block.lanes; ++lane) {
+      const int island = plan.island_of(b, lane);
+      int at = latest_shape_[island];
+      while (at >= 0 && lanes_of_shapes_[at].shape != block.rows) at = lanes_of_shapes_[at].before;
+      if (at < 0) {
+        at = static_cast<int>(lanes_of_shapes_.size());
+        lanes_of_shapes_.push_back({block.rows, 0, latest_shape_[island]});
+        latest_shape_[island] = at;
+      }
+      // a line for each row of sixteen lanes, and of those that are left
+      if (lanes_of_shapes_[at].lanes++ % simd::kLanes == 0) step_lines_[island] += block.row_count;
+    }
+  }
 }
 
 void BlockSteps::FindMotions(double share, Array<IslandMotion>* motions) const {
@@ -282,7 +307,7 @@ double BlockSteps::PriceOf(const SystemSize& size, int factorisations) const {
 }
 
 double BlockSteps::RestAlone(int island, int sweeps) const {
-  return set_up_[island] + kSweepLine * sweeps * lines_[island];
+  return set_up_[island] + kSweepLine * sweeps * sweep_lines_[island];
 }
 
 double BlockSteps::ScalarAlone(int island, int iterations) const {
@@ -292,7 +317,7 @@ double BlockSteps::ScalarAlone(int island, int iterations) const {
 
 int BlockSteps::SweepsOfEffort(int island, int iterations) const {
   const double left = kShareOfScalar * ScalarAlone(island, iterations) - set_up_[island];
-  const double sweeps = left / (kSweepLine * std::max(1, lines_[island]));
+  const double sweeps = left / (kSweepLine * std::max(1, sweep_lines_[island]));
   const double most = std::min(2.0 * iterations, double{std::numeric_limits<int>::max()});
   return static_cast<int>(std::clamp<double>(sweeps, iterations, most));
 }
@@ -310,13 +335,13 @@ double BlockSteps::PriceAloneOf(int group, int island, int factorisations) {
   if (!system.Recognise(frame_->plan(), frame_->plan_number(), group)) {
     // mostly there are about as many pairs as bodies
     const double analysis = 2 * kAnalyse * of.bodies / system.steps_of_analysis();
-    const Unknown graph{1.0 * lines_[island], 1.0 * of.rows, 1.0 * of.bodies};
+    const Unknown graph{1.0 * step_lines_[island], 1.0 * of.rows, 1.0 * of.bodies};
     return GuessOf<T>(graph, MemoryOf(island)->factor_size(), factorisations) + analysis;
   }
   const double bodies = of.bodies, share = bodies / system.nodes();
   const FactorSize own{share * system.flops(), share * system.nonzeros(), bodies};
   MemoryOf(island)->Remember(own);
-  return PriceOf<T>({1.0 * lines_[island], own.flops, own.nonzeros, bodies}, factorisations);
+  return PriceOf<T>({1.0 * step_lines_[island], own.flops, own.nonzeros, bodies}, factorisations);
 }
 
 void BlockSteps::Take(int group, std::span<const int> islands) {

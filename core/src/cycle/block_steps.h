@@ -87,6 +87,7 @@ class BlockSteps {
   void ReadStrains();
   void ReadIslands();
   void CountLines();
+  void CountStepLines();
   /// With so much of what impulses change velocities by.
   void FindMotions(double share, Array<IslandMotion>* motions) const;
   template <class T>
@@ -125,14 +126,23 @@ class BlockSteps {
   Array<int> limits_;            ///< by island: factorisations
   Array<double> set_up_;         ///< by island: what comes before and after sweeps
   Array<double> scalar_set_up_;  ///< the same row by row
-  Array<int> lines_;             ///< by island, as if it had lanes of its own
-  /// Lanes that would share blocks, while lines are counted.
+  /// By island, as if it had lanes of its own: what sweeps relax one after the other, and what a
+  /// step passes over.
+  Array<int> sweep_lines_, step_lines_;
+  /// Lanes that would be in one run, while lines are counted.
   struct Alike {
     int colour = -1;
     const simd::RowShape* shape = nullptr;
     int rows = 0, lanes = 0;
   };
-  Array<Alike> alike_;         ///< by island
+  Array<Alike> alike_;  ///< by island
+  /// Lanes of an island with the same rows, and the place of its shape before, -1 for none.
+  struct LanesOfShape {
+    const simd::RowShape* shape = nullptr;
+    int lanes = 0, before = -1;
+  };
+  Array<LanesOfShape> lanes_of_shapes_;
+  Array<int> latest_shape_;    ///< by island: its place in there
   Array<char> limited_;        ///< by island: some row has bounds of its own
   Array<double> strains_;      ///< by island, none if no body is strained
   Array<std::uint64_t> keys_;  ///< by island

@@ -70,7 +70,7 @@ class Pass final : public StagedWork {
   void Do(int stage, int unit) override {
     const Plan& plan = frame_->plan();
     const Unit& of = plan.units()[plan.phases()[stage].first_unit + unit];
-    kernel_(frame_->WorkOn(of.first_block, of.blocks));
+    kernel_(frame_->WorkOn(plan.groups()[of.group], of.first_block, of.blocks));
   }
 
  private:
@@ -111,13 +111,19 @@ bool FitsFloats(const Body& given, const WhitenedBody& body) {
 
 }  // namespace
 
-simd::PairWork BlockFrame::WorkOn(int first_block, int blocks) {
-  return {.blocks = plan_.blocks().data() + first_block,
-          .count = blocks,
+simd::PairWork BlockFrame::WorkOn(const Group& group, int first_block, int blocks) {
+  // parts of a group are blocks of a large one, each a run
+  const bool whole = blocks == group.blocks;
+  const int first_run = group.first_run + (whole ? 0 : first_block - group.first_block);
+  return {.blocks = plan_.blocks().data(),
+          .runs = plan_.runs().data() + first_run,
+          .run_count = whole ? group.runs : blocks,
+          .first_block = first_block,
+          .block_count = blocks,
           .data = blocks_.data.data(),
           .x = blocks_.x.data(),
           .bodies = blocks_.bodies.data(),
-          .errors = errors_.data() + first_block};
+          .errors = errors_.data()};
 }
 
 BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {

@@ -44,8 +44,8 @@ class BlockFrame {
   /// Who works on the frame that has begun.
   Crew* crew() const { return crew_; }
 
-  /// The work of some blocks of the plan.
-  simd::PairWork WorkOn(int first_block, int blocks);
+  /// All of a group, or some blocks of a large one.
+  simd::PairWork WorkOn(const Group& group, int first_block, int blocks);
 
  private:
   PackResult WhitenBodies(const ContactProblem& problem, Crew* crew);

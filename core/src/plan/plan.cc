@@ -24,18 +24,15 @@ constexpr int kStageRows = 8192;
 /// so many rows.
 constexpr int kTinyColour = 512;
 constexpr int kTinyColoursRows = 2048;
-/// Blocks that a pair without a colour may still join.
-constexpr int kOpenBlocks = 8;
+/// Runs that a pair without a colour may still join.
+constexpr int kOpenRuns = 8;
 
 bool IsLarge(const PlannedIsland& island) { return island.rows > kGroupRows; }
 
-bool Shares(const simd::PairBlock& block, int a, int b) {
-  for (int lane = 0; lane < block.lanes; ++lane) {
-    const int of_a = block.a[lane], of_b = block.b[lane];
-    if (of_a == a || (b != 0 && (of_a == b || of_b == b)) || of_b == a) return true;
-  }
-  return false;
-}
+constexpr int kForms = 3;
+
+/// What the rows of a pair look like in a block.
+int KindOf(const Pair& pair) { return pair.shape * kForms + static_cast<int>(pair.form); }
 
 }  // namespace
 
@@ -126,14 +123,12 @@ void Plan::FindGroups() {
 }
 
 void Plan::SortPairs() {
-  constexpr int kForms = 3;
   keys_.resize(list_.pairs.size());
   for (size_t i = 0; i < keys_.size(); ++i) {
     const int colour = colouring_.colours()[i];
-    const int shape = list_.pairs[i].shape * kForms + static_cast<int>(list_.pairs[i].form);
     keys_[i] = {.group = islands_[island_of_pair_[i]].group,
                 .colour = colour,
-                .shape = colour == Colour::kOverflow ? 0 : shape};
+                .shape = colour == Colour::kOverflow ? 0 : KindOf(list_.pairs[i])};
   }
   pair_order_.Update(keys_, colouring_.before(),
                      {.groups = static_cast<int>(groups_.size()),
@@ -168,18 +163,24 @@ void Plan::GiveSlots(size_t bodies) {
   }
 }
 
-/// Marks blocks that are followed by one of the same colour, and so of other bodies, with the same
+/// Marks runs that are followed by one of the same colour, and so of other bodies, with the same
 /// rows.
-void Plan::FindAlike() {
-  for (size_t i = 0; i + 1 < blocks_.size(); ++i) {
-    const simd::PairBlock& next = blocks_[i + 1];
-    const int colour = colour_of_block_[i];
-    blocks_[i].like_next = colour != Colour::kOverflow && colour == colour_of_block_[i + 1] &&
-                           blocks_[i].form == next.form && blocks_[i].rows == next.rows;
+void Plan::FindAlike(const Group& group) {
+  const auto whole = [this](const simd::LaneRun& run) {
+    return run.lanes == blocks_[run.block].lanes;
+  };
+  for (int i = group.first_run; i + 1 < group.first_run + group.runs; ++i) {
+    simd::LaneRun& run = runs_[i];
+    const simd::LaneRun& next = runs_[i + 1];
+    const simd::PairBlock &block = blocks_[run.block], &other = blocks_[next.block];
+    const int colour = colour_of_run_[i];
+    run.like_next = colour != Colour::kOverflow && colour == colour_of_run_[i + 1] &&
+                    block.form == other.form && block.rows == other.rows && whole(run) &&
+                    whole(next);
   }
 }
 
-simd::PairBlock& Plan::AddBlock(int pair) {
+void Plan::AddBlock(int pair) {
   const Pair& of = list_.pairs[pair];
   simd::PairBlock& block = blocks_.emplace_back();
   block = {};
@@ -192,80 +193,128 @@ simd::PairBlock& Plan::AddBlock(int pair) {
   x_lines_ += of.rows;
   pair_of_lane_.resize(blocks_.size() * kLanes, -1);
   island_of_lane_.resize(blocks_.size() * kLanes, -1);
-  colour_of_block_.push_back(colouring_.colours()[pair]);
-  return block;
 }
 
-void Plan::AddLane(int pair, simd::PairBlock* block) {
+void Plan::AddLane(int pair, int index) {
   const Pair& of = list_.pairs[pair];
-  const int index = static_cast<int>(block - blocks_.data());
-  const int lane = index * kLanes + block->lanes;
+  simd::PairBlock& block = blocks_[index];
+  const int lane = index * kLanes + block.lanes;
   pair_of_lane_[lane] = pair;
   island_of_lane_[lane] = island_of_pair_[pair];
-  block->a[block->lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
-  block->b[block->lanes] = of.b == kWorld ? 0 : slot_of_body_[of.b];
-  ++block->lanes;
+  block.a[block.lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
+  block.b[block.lanes] = of.b == kWorld ? 0 : slot_of_body_[of.b];
+  ++block.lanes;
 }
 
-void Plan::FillOverflow(size_t begin, size_t end) {
-  // island by island, each as if it were alone
-  const auto before = [this](int i, int j) {
-    return std::pair(island_of_pair_[i], i) < std::pair(island_of_pair_[j], j);
-  };
-  std::sort(order_.begin() + static_cast<std::ptrdiff_t>(begin),
-            order_.begin() + static_cast<std::ptrdiff_t>(end), before);
-  int island = -1;
-  size_t first_block = blocks_.size();
-  for (size_t i = begin; i < end; ++i) {
-    if (std::exchange(island, island_of_pair_[order_[i]]) != island) first_block = blocks_.size();
-    simd::PairBlock* const open = FindOpenBlock(order_[i], first_block);
-    AddLane(order_[i], open != nullptr ? open : &AddBlock(order_[i]));
-  }
+Plan::Draft& Plan::AddDraft(int pair) {
+  Draft& draft = drafts_.emplace_back();
+  draft.colour = colouring_.colours()[pair];
+  return draft;
 }
 
-simd::PairBlock* Plan::FindOpenBlock(int index, size_t first_block) {
+bool Plan::Shares(const Draft& draft, const Pair& pair) const {
+  return std::any_of(draft.pairs, draft.pairs + draft.lanes, [&](int i) {
+    const Pair& of = list_.pairs[i];
+    return of.a == pair.a || of.b == pair.a ||
+           (pair.b != kWorld && (of.a == pair.b || of.b == pair.b));
+  });
+}
+
+Plan::Draft* Plan::FindOpenDraft(int index, size_t first_draft) {
   const Pair& pair = list_.pairs[index];
-  const int a = slot_of_body_[pair.a], b = pair.b == kWorld ? 0 : slot_of_body_[pair.b];
-  const size_t most = std::min<size_t>(blocks_.size() - first_block, kOpenBlocks);
-  for (size_t at = blocks_.size() - most; at < blocks_.size(); ++at) {
-    const Pair& other = list_.pairs[pair_of_lane_[at * kLanes]];
-    const bool alike = other.shape == pair.shape && other.form == pair.form;
-    if (alike && blocks_[at].lanes < kLanes && !Shares(blocks_[at], a, b)) return &blocks_[at];
+  const size_t most = std::min<size_t>(drafts_.size() - first_draft, kOpenRuns);
+  for (size_t at = drafts_.size() - most; at < drafts_.size(); ++at) {
+    Draft& draft = drafts_[at];
+    const bool alike = KindOf(list_.pairs[draft.pairs[0]]) == KindOf(pair);
+    if (alike && draft.lanes < kLanes && !Shares(draft, pair)) return &draft;
   }
   return nullptr;
 }
 
+void Plan::DraftOverflow(std::span<const int> pairs) {
+  int island = -1;
+  size_t first_draft = 0;
+  for (const int pair : pairs) {
+    if (std::exchange(island, island_of_pair_[pair]) != island) first_draft = drafts_.size();
+    Draft* const open = FindOpenDraft(pair, first_draft);
+    Draft& draft = open != nullptr ? *open : AddDraft(pair);
+    draft.pairs[draft.lanes++] = pair;
+  }
+}
+
+/// Those of a group, whose pairs begin at @p i in their order. Returns where they end.
+size_t Plan::DraftRuns(int group, size_t i) {
+  const auto of_group = [&](size_t at) {
+    return at < order_.size() && keys_[order_[at]].group == group;
+  };
+  drafts_.clear();
+  const size_t begin = i;
+  while (of_group(i) && keys_[order_[i]].colour == Colour::kOverflow) ++i;
+  // island by island, each as if it were alone
+  const std::span<int> overflow(order_.data() + begin, i - begin);
+  std::sort(overflow.begin(), overflow.end(), [this](int a, int b) {
+    return std::pair(island_of_pair_[a], a) < std::pair(island_of_pair_[b], b);
+  });
+  DraftOverflow(overflow);
+
+  // a run ends with its colour, its shape, or full
+  PairKey key{};  // that of no pair with a colour
+  for (; of_group(i); ++i) {
+    const PairKey& next = keys_[order_[i]];
+    const bool same = key == next && drafts_.back().lanes < kLanes;
+    Draft& draft = same ? drafts_.back() : AddDraft(order_[i]);
+    draft.pairs[draft.lanes++] = order_[i];
+    key = next;
+  }
+  return i;
+}
+
+/// The block that a run goes to. Small islands have few pairs of each colour: all passes but those
+/// that relax rows have more to do at a time where colours share blocks.
+int Plan::FindRoom(const Draft& draft, bool small) {
+  int& open = open_blocks_[KindOf(list_.pairs[draft.pairs[0]])];
+  const int width = simd::WidthOf(draft.lanes);
+  if (small && open >= 0 && blocks_[open].lanes + width <= kLanes) return open;
+  AddBlock(draft.pairs[0]);
+  const int block = static_cast<int>(blocks_.size()) - 1;
+  if (small && width < kLanes) open = block;
+  return block;
+}
+
+void Plan::PlaceRuns(bool small) {
+  open_blocks_.assign(static_cast<size_t>(shapes_.size()) * kForms, -1);
+  for (const Draft& draft : drafts_) {
+    const int block = FindRoom(draft, small);
+    runs_.push_back({.block = block,
+                     .first = static_cast<std::int16_t>(blocks_[block].lanes),
+                     .lanes = static_cast<std::int16_t>(draft.lanes),
+                     .like_next = false});
+    colour_of_run_.push_back(draft.colour);
+    for (int lane = 0; lane < draft.lanes; ++lane) AddLane(draft.pairs[lane], block);
+  }
+}
+
 void Plan::FillBlocks() {
   blocks_.clear();
+  runs_.clear();
   pair_of_lane_.clear();
   island_of_lane_.clear();
-  colour_of_block_.clear();
+  colour_of_run_.clear();
   data_lines_ = x_lines_ = 0;
   size_t i = 0;
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     Group& group = groups_[g];
     group.first_block = static_cast<int>(blocks_.size());
+    group.first_run = static_cast<int>(runs_.size());
     group.first_x = x_lines_;
     unmoved_slot_ = group.first_slot;
-    const auto of_group = [&](size_t at) {
-      return at < order_.size() && keys_[order_[at]].group == g;
-    };
-    const size_t begin = i;
-    while (of_group(i) && keys_[order_[i]].colour == Colour::kOverflow) ++i;
-    FillOverflow(begin, i);
-
-    // a block ends with its colour, its shape, or full
-    PairKey key{};  // that of no pair with a colour
-    for (; of_group(i); ++i) {
-      const PairKey& next = keys_[order_[i]];
-      const bool same = key == next && blocks_.back().lanes < kLanes;
-      AddLane(order_[i], same ? &blocks_.back() : &AddBlock(order_[i]));
-      key = next;
-    }
+    i = DraftRuns(g, i);
+    PlaceRuns(group.rows <= kGroupRows);
     group.blocks = static_cast<int>(blocks_.size()) - group.first_block;
+    group.runs = static_cast<int>(runs_.size()) - group.first_run;
     group.x_lines = x_lines_ - group.first_x;
+    FindAlike(group);
   }
-  FindAlike();
   ListLanes();
 }
 
@@ -327,15 +376,20 @@ void Plan::AddUnits(int first_block, int end_block, int group) {
   }
 }
 
+/// @pre the group is large
+int Plan::ColourOf(const Group& group, int block) const {
+  return colour_of_run_[group.first_run + block - group.first_block];
+}
+
 void Plan::StagesOf(int g) {
   const Group& group = groups_[g];
   const int end = group.first_block + group.blocks;
   bool tail = false;  // the last unit is one of tiny colours, and may be continued
   for (int b = group.first_block; b < end;) {
     int next = b + 1;
-    while (next < end && colour_of_block_[next] == colour_of_block_[b]) ++next;
+    while (next < end && ColourOf(group, next) == ColourOf(group, b)) ++next;
     const int rows = RowsOf(b, next);
-    const bool overflow = colour_of_block_[b] == Colour::kOverflow;
+    const bool overflow = ColourOf(group, b) == Colour::kOverflow;
     if (!overflow && rows >= kTinyColour) {
       AddUnits(b, next, g);
       tail = false;

@@ -24,9 +24,11 @@ struct PlannedIsland {
 };
 
 /// A large island, or several small ones that fill the lanes together. Blocks, impulses and bodies
-/// of a group are side by side, and shared with no other.
+/// of a group are side by side, and shared with no other. Runs of a large one are its blocks, one
+/// by one; those of small ones share blocks, whatever their colours.
 struct Group {
   int first_block = 0, blocks = 0;
+  int first_run = 0, runs = 0;
   int first_x = 0, x_lines = 0;
   int first_slot = 0, slots = 0;
   int first_island = 0, islands = 0;  ///< in Plan::islands_of_groups()
@@ -65,6 +67,14 @@ class Plan {
                           const MovableBodies& movable, Crew* crew);
 
   std::span<const simd::PairBlock> blocks() const { return blocks_; }
+  /// In the order of a sweep: colour by colour.
+  std::span<const simd::LaneRun> runs() const { return runs_; }
+  int colour_of(int run) const { return colour_of_run_[run]; }
+  /// Runs of a group. An island has its lanes in this order whoever shares the blocks, so that sums
+  /// over them have the same bits.
+  std::span<const simd::LaneRun> runs_of(const Group& group) const {
+    return std::span(runs_).subspan(group.first_run, group.runs);
+  }
   /// Pair of a lane. @pre lane < blocks()[block].lanes
   const Pair& pair(int block, int lane) const {
     return list_.pairs[pair_of_lane_[block * simd::kLanes + lane]];
@@ -78,8 +88,6 @@ class Plan {
     const auto begin = static_cast<size_t>(lanes_begin_[island]);
     return std::span(lanes_of_islands_).subspan(begin, lanes_begin_[island + 1] - begin);
   }
-  /// Blocks of a group come colour by colour.
-  int colour_of(int block) const { return colour_of_block_[block]; }
   /// Problem rows of a pair. @pre it is made of rows
   std::span<const int> rows_of(const Pair& pair) const { return list_.rows_of(pair); }
 
@@ -104,17 +112,28 @@ class Plan {
   void FindIslands(int bodies);
   void FindGroups();
   void SortPairs();
+  /// Pairs that are relaxed at a time: alike, of one colour, and sharing no body.
+  struct Draft {
+    int colour = 0, lanes = 0;
+    int pairs[simd::kLanes];
+  };
   void FillBlocks();
-  void FillOverflow(size_t begin, size_t end);
-  void FindAlike();
+  size_t DraftRuns(int group, size_t first);
+  void DraftOverflow(std::span<const int> pairs);
+  Draft& AddDraft(int pair);
+  Draft* FindOpenDraft(int pair, size_t first_draft);
+  bool Shares(const Draft& draft, const Pair& pair) const;
+  void PlaceRuns(bool small);
+  int FindRoom(const Draft& draft, bool small);
+  void FindAlike(const Group& group);
   void ListLanes();
-  simd::PairBlock* FindOpenBlock(int pair, size_t first_block);
-  simd::PairBlock& AddBlock(int pair);
-  void AddLane(int pair, simd::PairBlock* block);
+  void AddBlock(int pair);
+  void AddLane(int pair, int block);
   void GiveSlots(size_t bodies);
   int SlotOf(int body);
   void FindStages();
   void StagesOf(int group);
+  int ColourOf(const Group& group, int block) const;
   void AddUnits(int first_block, int end_block, int group);
   /// Begins a stage: a phase of its own, or one more of the last.
   enum class Follows { kNothing, kLastPhase };
@@ -138,9 +157,12 @@ class Plan {
   Array<PairKey> keys_;
   Array<int> order_;  ///< pairs in the order of a sweep
   Array<simd::PairBlock> blocks_;
+  Array<simd::LaneRun> runs_;
   Array<int> pair_of_lane_, island_of_lane_;
   Array<int> lanes_of_islands_, lanes_begin_;  ///< of those that share a group
-  Array<int> colour_of_block_;
+  Array<int> colour_of_run_;
+  Array<Draft> drafts_;     ///< of a group
+  Array<int> open_blocks_;  ///< of small islands: the last with room for more, by KindOf(), or -1
   Array<int> slot_of_body_, body_of_slot_;
   Array<Unit> units_;
   Array<Stage> stages_;

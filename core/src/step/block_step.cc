@@ -217,10 +217,10 @@ template <class T>
 void BlockStep<T>::FindTolerances() {
   sums_.assign(islands_.size(), 0);
   counts_.assign(islands_.size(), 0);
-  for (int b = group_->first_block; b < group_->first_block + group_->blocks; ++b) {
-    const simd::PairBlock& block = plan_->blocks()[b];
-    for (int l = 0; l < block.lanes; ++l) {
-      const int island = plan_->island_of(b, l);
+  for (const simd::LaneRun& run : plan_->runs_of(*group_)) {
+    const simd::PairBlock& block = plan_->blocks()[run.block];
+    for (int l = run.first; l < run.first + run.lanes; ++l) {
+      const int island = plan_->island_of(run.block, l);
       for (int i = 0; i < block.row_count; ++i) {
         sums_[island] += std::abs(static_cast<double>(blocks_->x[block.x + i].lane[l]));
       }
@@ -232,17 +232,22 @@ void BlockStep<T>::FindTolerances() {
 template <class T>
 void BlockStep<T>::MultiplyTransposed(const Array<LineT>& y, Array<T>* v) {
   std::fill(v->begin(), v->end(), T{0});
-  LineT of_pair[simd::kPairLines];
-  for (int b = 0; b < group_->blocks && !Passes(deadline_, b); ++b) {
-    const simd::PairActiveSet<T> set = ActiveSetOf(b);
-    const simd::PairBlock& block = set.block;
-    products_.multiply_transposed(
-        block, set.lines, y.data() + (block.x - static_cast<size_t>(group_->first_x)), of_pair);
+  const auto runs = plan_->runs_of(*group_);
+  const RunResults results(*group_, simd::kPairLines, &products_of_blocks_);
+  for (size_t r = 0; r < runs.size() && !Passes(deadline_, static_cast<int>(r)); ++r) {
+    const simd::LaneRun& run = runs[r];
+    LineT* const of_pair = results.Of(run);
+    const simd::PairBlock& block = plan_->blocks()[run.block];
+    if (run.first == 0) {
+      products_.multiply_transposed(block, blocks_->data.data() + block.data,
+                                    y.data() + (block.x - static_cast<size_t>(group_->first_x)),
+                                    of_pair);
+    }
     const auto add = [&](int slot, int lane, const LineT* lines) {
       const int node = system_->node_of_slot(slot);
       for (int k = 0; k < 6 && node >= 0; ++k) (*v)[6 * node + k] += lines[k].lane[lane];
     };
-    for (int l = 0; l < block.lanes; ++l) {
+    for (int l = run.first; l < run.first + run.lanes; ++l) {
       add(block.a[l], l, of_pair);
       if (block.form != simd::PairForm::kSingle) add(block.b[l], l, of_pair + 6);
     }

@@ -128,13 +128,19 @@ bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const Block
   for (int node = 0; node < nodes(); ++node) {
     for (int k = 0; k < 6; ++k) cholesky_.diagonal(node)[7 * k] = 1;
   }
-  simd::LineOf<T> gram[simd::kGramLines];
-  for (int b = 0; b < group.blocks && !Passes(deadline, b); ++b) {
-    const simd::PairBlock& block = plan.blocks()[group.first_block + b];
-    const auto x = static_cast<size_t>(block.x - static_cast<std::uint32_t>(group.first_x));
-    products_.weighted_gram(block, blocks.data.data() + block.data, weights.data() + x, gram);
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      AddLane(block, lane, pair_of_lane_[static_cast<size_t>(b) * kLanes + lane], gram);
+  const RunResults results(group, simd::kGramLines, &grams_);
+  const auto runs = plan.runs_of(group);
+  for (size_t r = 0; r < runs.size() && !Passes(deadline, static_cast<int>(r)); ++r) {
+    const simd::LaneRun& run = runs[r];
+    const simd::PairBlock& block = plan.blocks()[run.block];
+    simd::LineOf<T>* const gram = results.Of(run);
+    if (run.first == 0) {
+      const auto x = static_cast<size_t>(block.x - static_cast<std::uint32_t>(group.first_x));
+      products_.weighted_gram(block, blocks.data.data() + block.data, weights.data() + x, gram);
+    }
+    const auto first_lane = static_cast<size_t>(run.block - group.first_block) * kLanes;
+    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+      AddLane(block, lane, pair_of_lane_[first_lane + static_cast<size_t>(lane)], gram);
     }
   }
   const SpanClock clock(crew != nullptr ? crew->recorder() : nullptr, 0, {SpanKind::kFactorise});

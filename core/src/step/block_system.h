@@ -14,6 +14,28 @@
 
 namespace cairn {
 
+/// What a kernel finds for whole blocks, and is added up run by run: the first run of a block calls
+/// the kernel. Where runs are blocks one place serves all.
+template <class Line>
+class RunResults {
+ public:
+  RunResults(const Group& group, int lines, Array<Line>* memory)
+      : group_(group), lines_(group.runs == group.blocks ? 0 : lines) {
+    const auto places = static_cast<size_t>(group.runs == group.blocks ? 1 : group.blocks);
+    memory->resize(places * static_cast<size_t>(lines));
+    first_ = memory->data();
+  }
+  /// Those of the block that a run is of.
+  Line* Of(const simd::LaneRun& run) const {
+    return first_ + static_cast<std::ptrdiff_t>(lines_) * (run.block - group_.first_block);
+  }
+
+ private:
+  const Group& group_;
+  int lines_;
+  Line* first_;
+};
+
 /// The reduced system of a group in body space, H = I + G_F' W G_F with a weight for each free row,
 /// from rows in blocks. By the Woodbury identity it answers what the paper's (G_F G_F' + W^-1)
 /// asks, but it is positive definite however redundant the rows are, and its pattern, the body
@@ -81,8 +103,9 @@ class BlockSystem : public detail::Placed {
   Array<int> node_of_slot_;
   Array<NodePair> pairs_;  ///< of the analysed graph
   Array<NodePair> known_pairs_, all_pairs_;
-  Array<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
-  int lanes_ = 0;            ///< where two do
+  Array<simd::LineOf<T>> grams_;  ///< see RunResults
+  Array<int> pair_of_lane_;       ///< of the group's blocks; -1 where only one body moves
+  int lanes_ = 0;                 ///< where two do
   double steps_ = 0, expected_steps_ = kExpectedSteps;  ///< of this analysis, and of others
 
   /// Before anything is known: what begins to be piled up goes on so for some frames.

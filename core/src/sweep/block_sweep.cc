@@ -93,7 +93,7 @@ class BlockSweeps::Pass final : public StagedWork {
 
   void Work(int sweep, int group, int first_block, int blocks) {
     if (!groups_[group].active) return;
-    simd::PairWork work = sweeps_.frame_->WorkOn(first_block, blocks);
+    simd::PairWork work = sweeps_.frame_->WorkOn(plan().groups()[group], first_block, blocks);
     work.sweep = groups_[group].sweeps + sweep;
     work.hold_lifted = sweeps_.settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
     const simd::PairKernels& kernels = sweeps_.frame_->kernels();
@@ -197,7 +197,7 @@ void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& ker
   for (size_t g = 0; g < groups.size(); ++g) {
     if (!groups[g].active) continue;
     const Group& group = plan.groups()[g];
-    simd::PairWork work = frame_->WorkOn(group.first_block, group.blocks);
+    simd::PairWork work = frame_->WorkOn(group, group.first_block, group.blocks);
     work.hold_lifted = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
     for (int k = 0; k < kernels.count; ++k) {
       work.sweep = groups[g].sweeps + k;

@@ -44,9 +44,9 @@ class Oracle {
   }
 
   void Sweep(int number) {
-    for (int b = 0; b < static_cast<int>(plan_.blocks().size()); ++b) {
-      for (int lane = 0; lane < plan_.blocks()[b].lanes; ++lane) {
-        for (int row : plan_.rows_of(plan_.pair(b, lane))) {
+    for (const simd::LaneRun& run : plan_.runs()) {
+      for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+        for (int row : plan_.rows_of(plan_.pair(run.block, lane))) {
           if (number < scene_.rows[row].host.max_sweeps) Relax(row);
         }
       }

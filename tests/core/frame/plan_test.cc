@@ -14,6 +14,7 @@ namespace cairn {
 namespace {
 
 using simd::kLanes;
+using simd::LaneRun;
 using simd::PairBlock;
 using test::Scene;
 
@@ -44,11 +45,9 @@ void ExpectEveryRowInOneLane(const Planned& p) {
   for (int count : lanes) ASSERT_EQ(count, 1);
 }
 
-/// Slots of a block, world excluded: those of its bodies, each once.
-void ExpectLanesApart(const Planned& p) {
+void ExpectSlotsOfTheirBodies(const Planned& p) {
   for (int b = 0; b < static_cast<int>(p.plan.blocks().size()); ++b) {
     const PairBlock& block = p.plan.blocks()[b];
-    std::set<int> slots;
     for (int lane = 0; lane < kLanes; ++lane) {
       if (lane >= block.lanes) {
         EXPECT_EQ(block.a[lane], 0);
@@ -56,10 +55,6 @@ void ExpectLanesApart(const Planned& p) {
         continue;
       }
       const Pair& pair = p.plan.pair(b, lane);
-      EXPECT_TRUE(slots.insert(block.a[lane]).second);
-      if (block.b[lane] != 0) {
-        EXPECT_TRUE(slots.insert(block.b[lane]).second);
-      }
       EXPECT_NE(block.a[lane], 0) << "the first slot is read by all and written by none";
       EXPECT_EQ(p.plan.body_of_slot()[block.a[lane]], pair.a);
       EXPECT_EQ(p.plan.body_of_slot()[block.b[lane]], pair.b);
@@ -71,6 +66,39 @@ void ExpectLanesApart(const Planned& p) {
       }
     }
   }
+}
+
+/// Slots of a run, world excluded: those of its bodies, each once.
+void ExpectLanesOfARunApart(const Planned& p) {
+  for (const LaneRun& run : p.plan.runs()) {
+    std::set<int> slots;
+    const PairBlock& block = p.plan.blocks()[run.block];
+    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+      EXPECT_TRUE(slots.insert(block.a[lane]).second);
+      if (block.b[lane] != 0) {
+        EXPECT_TRUE(slots.insert(block.b[lane]).second);
+      }
+    }
+  }
+}
+
+/// Runs of a block fill its lanes one after the other, in registers that leave those before alone.
+void ExpectRunsToFillBlocks(const Planned& p) {
+  std::vector<int> filled(p.plan.blocks().size());
+  for (const Group& group : p.plan.groups()) {
+    for (int r = group.first_run; r < group.first_run + group.runs; ++r) {
+      const LaneRun& run = p.plan.runs()[r];
+      EXPECT_TRUE(run.block >= group.first_block && run.block < group.first_block + group.blocks);
+      EXPECT_GE(run.lanes, 1);
+      EXPECT_EQ(run.first, filled[run.block]);
+      EXPECT_LE(run.first + simd::WidthOf(run.lanes), kLanes);
+      filled[run.block] += run.lanes;
+      if (simd::WidthOf(run.lanes) == kLanes) {
+        EXPECT_EQ(run.lanes, p.plan.blocks()[run.block].lanes);
+      }
+    }
+  }
+  for (size_t b = 0; b < filled.size(); ++b) EXPECT_EQ(filled[b], p.plan.blocks()[b].lanes);
 }
 
 void ExpectGroupsApart(const Planned& p) {
@@ -151,30 +179,35 @@ void ExpectBlocksOfAGroupInOrder(const Planned& p) {
   }
 }
 
-/// Those that may be swept at once have the same rows and share no body.
-void ExpectBlocksThatAreAlikeApart(const Planned& p) {
-  for (const Group& group : p.plan.groups()) {
-    for (int b = group.first_block; b + 1 < group.first_block + group.blocks; ++b) {
-      const PairBlock &block = p.plan.blocks()[b], &next = p.plan.blocks()[b + 1];
-      if (!block.like_next) continue;
-      EXPECT_EQ(block.form, next.form);
-      EXPECT_EQ(block.row_count, next.row_count);
-      EXPECT_EQ(block.rows, next.rows);
-      std::set<int> slots{0};
-      for (const PairBlock* of : {&block, &next}) {
-        for (int lane = 0; lane < of->lanes; ++lane) {
-          EXPECT_TRUE(slots.insert(of->a[lane]).second);
-          EXPECT_TRUE(of->b[lane] == 0 || slots.insert(of->b[lane]).second);
-        }
+/// Those that may be swept at once have the same rows, share no body and fill their blocks.
+void ExpectRunsThatAreAlikeApart(const Planned& p) {
+  for (size_t r = 0; r < p.plan.runs().size(); ++r) {
+    const LaneRun& run = p.plan.runs()[r];
+    if (!run.like_next) continue;
+    ASSERT_LT(r + 1, p.plan.runs().size());
+    const LaneRun& next = p.plan.runs()[r + 1];
+    const PairBlock &block = p.plan.blocks()[run.block], &other = p.plan.blocks()[next.block];
+    EXPECT_EQ(block.form, other.form);
+    EXPECT_EQ(block.row_count, other.row_count);
+    EXPECT_EQ(block.rows, other.rows);
+    EXPECT_EQ(run.lanes, block.lanes);
+    EXPECT_EQ(next.lanes, other.lanes);
+    std::set<int> slots{0};
+    for (const PairBlock* of : {&block, &other}) {
+      for (int lane = 0; lane < of->lanes; ++lane) {
+        EXPECT_TRUE(slots.insert(of->a[lane]).second);
+        EXPECT_TRUE(of->b[lane] == 0 || slots.insert(of->b[lane]).second);
       }
     }
   }
 }
 
 void ExpectSound(const Planned& p) {
-  ExpectBlocksThatAreAlikeApart(p);
   ExpectEveryRowInOneLane(p);
-  ExpectLanesApart(p);
+  ExpectSlotsOfTheirBodies(p);
+  ExpectLanesOfARunApart(p);
+  ExpectRunsToFillBlocks(p);
+  ExpectRunsThatAreAlikeApart(p);
   ExpectGroupsApart(p);
   ExpectUnitsOfAStageApart(p);
   ExpectBlocksOfAGroupInOrder(p);
@@ -188,13 +221,23 @@ TEST(Plan, IsSoundForScenesOfAllKinds) {
   }
 }
 
-TEST(Plan, FindsBlocksThatAreAlike) {
+TEST(Plan, FindsRunsThatAreAlike) {
   const Planned wall(test::Wall(20, 15)), tower(test::Tower(30));
   const auto alike = [](const Planned& p) {
-    return std::ranges::count_if(p.plan.blocks(), &PairBlock::like_next);
+    return std::ranges::count_if(p.plan.runs(), &LaneRun::like_next);
   };
   EXPECT_GT(alike(wall), 0);
-  EXPECT_EQ(alike(tower), 0);  // of each kind and colour it has one block at the most
+  EXPECT_EQ(alike(tower), 0);  // of each kind and colour it has one run at the most
+}
+
+// A plate on twenty boxes: each contact with it has a colour of its own.
+TEST(Plan, LetsColoursOfSmallIslandsShareBlocks) {
+  const Planned small(test::Plate(20)), large(test::Plate(200));
+  ExpectSound(small);
+  ExpectSound(large);
+  EXPECT_GE(small.plan.runs().size(), 20u);
+  EXPECT_LT(small.plan.blocks().size(), 10u);
+  EXPECT_EQ(large.plan.runs().size(), large.plan.blocks().size());
 }
 
 TEST(Plan, IsSoundForRandomScenesThatChange) {
@@ -328,10 +371,10 @@ TEST(Plan, SweepsJointsBeforeContactsAndTheWorldLast) {
         test::Heap({.bodies = 100, .contacts = 250, .pins = 80, .world_share = 0.3}, seed));
     for (const Group& group : p.plan.groups()) {
       int kind = 0;
-      for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-        for (int lane = 0; lane < p.plan.blocks()[b].lanes; ++lane) {
-          EXPECT_GE(KindOf(p.plan.pair(b, lane)), kind);
-          kind = KindOf(p.plan.pair(b, lane));
+      for (const LaneRun& run : p.plan.runs().subspan(group.first_run, group.runs)) {
+        for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+          EXPECT_GE(KindOf(p.plan.pair(run.block, lane)), kind);
+          kind = KindOf(p.plan.pair(run.block, lane));
         }
       }
     }
@@ -341,8 +384,9 @@ TEST(Plan, SweepsJointsBeforeContactsAndTheWorldLast) {
 TEST(Plan, NumbersSlotsByTheirFirstUse) {
   const Planned p(test::Wall(15, 10));
   int newest = 0;
-  for (const PairBlock& block : p.plan.blocks()) {
-    for (int lane = 0; lane < block.lanes; ++lane) {
+  for (const LaneRun& run : p.plan.runs()) {
+    const PairBlock& block = p.plan.blocks()[run.block];
+    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
       for (int slot : {block.a[lane], block.b[lane]}) {
         EXPECT_LE(slot, newest + 1);
         newest = std::max(newest, slot);
