@@ -33,9 +33,13 @@ constexpr double kUnknownRow = 40;
 
 /// Reading a problem from its host, packing it, and writing it back, likewise: fitted to Bullet's
 /// worlds.
-constexpr double kSetUpIsland = 4000, kSetUpBody = 40, kSetUpRow = 25, kSetUpJointRow = 160;
-/// A sweep that is accelerated and measured, per line of impulses.
+constexpr double kSetUpIsland = 3000, kSetUpBody = 50, kSetUpRow = 18, kSetUpJointRow = 160;
+/// A row of a sweep that is accelerated and measured, by how many lanes it relaxes at a time.
 constexpr double kSweepLine = 30;
+constexpr double SweepRow(int lanes) {
+  const int width = simd::WidthOf(lanes);
+  return width == 4 ? 12 : width == 8 ? 16 : kSweepLine;
+}
 /// Sequential impulses row by row, as Bullet 3.24 makes them: an iteration, and all before and
 /// after; likewise fitted, and the share of that which an island without a step may take.
 constexpr double kScalarSweepRow = 8, kScalarRow = 80, kScalarJointRow = 160;
@@ -116,12 +120,16 @@ void BlockSteps::ReadIslands() {
 
 void BlockSteps::CountLines() {
   const Plan& plan = frame_->plan();
+  sweeps_.assign(plan.islands().size(), 0);
   sweep_lines_.assign(plan.islands().size(), 0);
   // lanes of one colour and one shape, island by island
   alike_.assign(plan.islands().size(), {});
   const auto close = [this](int island) {
     const Alike& alike = alike_[island];
-    sweep_lines_[island] += alike.rows * ((alike.lanes + simd::kLanes - 1) / simd::kLanes);
+    for (int left = alike.lanes; left > 0; left -= simd::kLanes) {
+      sweeps_[island] += alike.rows * SweepRow(std::min(left, simd::kLanes));
+      sweep_lines_[island] += alike.rows;
+    }
   };
   for (int r = 0; r < static_cast<int>(plan.runs().size()); ++r) {
     const simd::LaneRun& run = plan.runs()[r];
@@ -307,6 +315,10 @@ double BlockSteps::PriceOf(const SystemSize& size, int factorisations) const {
 }
 
 double BlockSteps::RestAlone(int island, int sweeps) const {
+  return set_up_[island] + sweeps * sweeps_[island];
+}
+
+double BlockSteps::RestInWholeLines(int island, int sweeps) const {
   return set_up_[island] + kSweepLine * sweeps * sweep_lines_[island];
 }
 
@@ -317,7 +329,7 @@ double BlockSteps::ScalarAlone(int island, int iterations) const {
 
 int BlockSteps::SweepsOfEffort(int island, int iterations) const {
   const double left = kShareOfScalar * ScalarAlone(island, iterations) - set_up_[island];
-  const double sweeps = left / (kSweepLine * std::max(1, sweep_lines_[island]));
+  const double sweeps = left / std::max(1.0, sweeps_[island]);
   const double most = std::min(2.0 * iterations, double{std::numeric_limits<int>::max()});
   return static_cast<int>(std::clamp<double>(sweeps, iterations, most));
 }

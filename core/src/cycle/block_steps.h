@@ -45,6 +45,9 @@ class BlockSteps {
   /// frames while the graph is not known.
   double PriceAlone(int group, int island, int factorisations);
   double RestAlone(int island, int sweeps) const;
+  /// The same if each row took as long as one of sixteen lanes: what it is to a large island, and
+  /// no less for a small one, whose steps matter as much.
+  double RestInWholeLines(int island, int sweeps) const;
   /// What sequential impulses row by row cost there, all in all.
   double ScalarAlone(int island, int iterations) const;
   /// Sweeps that fit, with all else, into the time that sequential impulses row by row take for so
@@ -126,8 +129,8 @@ class BlockSteps {
   Array<int> limits_;            ///< by island: factorisations
   Array<double> set_up_;         ///< by island: what comes before and after sweeps
   Array<double> scalar_set_up_;  ///< the same row by row
-  /// By island, as if it had lanes of its own: what sweeps relax one after the other, and what a
-  /// step passes over.
+  Array<double> sweeps_;         ///< by island: one of them, as if it had lanes of its own
+  /// Likewise: rows that a sweep relaxes one after the other, lines that a step passes over.
   Array<int> sweep_lines_, step_lines_;
   /// Lanes that would be in one run, while lines are counted.
   struct Alike {

@@ -11,11 +11,12 @@ namespace {
 
 /// What fewer sweeps gain says too little; after a step, whose trace they carry, even more so.
 constexpr int kLeastRun = 9, kLeastRunAfterStep = 30;
-/// A step that is weighed costs at most this share of all else on its island, as prices have it:
-/// those of steps in doubles are a third too high.
-constexpr double kMostOfRest = 1.25;
-/// And all of it together so many times what sequential impulses row by row do.
-constexpr double kMostOfScalar = 2.2;
+/// A step that is weighed costs at most this share of all else on its island in whole lines, as
+/// prices have it: those of steps in doubles are a third too high.
+constexpr double kMostOfRest = 1.5;
+/// And all of it together so many times what sequential impulses row by row do. Joints are held by
+/// nothing else.
+constexpr double kMostOfScalar = 1.3, kMostOfScalarWithJoints = 2.2;
 /// By so much more where there was a step in the last frame: steps that come and go do harm.
 /// Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
@@ -142,10 +143,11 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const bool thrown = steps_->HasJoints(i) && !odds.stepped_most(bodies) &&
                       largest > (strained ? kMostThrownStrained : kMostThrown);
   if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
-  const double rest = steps_->RestAlone(i, frame_->settings.max_sweeps);
-  const double scalar = steps_->ScalarAlone(i, frame_->settings.max_sweeps);
-  const double most_price =
-      strained ? kMostOfRest * rest : std::min(kMostOfRest * rest, kMostOfScalar * scalar - rest);
+  const int sweeps = frame_->settings.max_sweeps;
+  const double of_scalar = steps_->HasJoints(i) ? kMostOfScalarWithJoints : kMostOfScalar;
+  const double of_rest = kMostOfRest * steps_->RestInWholeLines(i, sweeps);
+  const double left = of_scalar * steps_->ScalarAlone(i, sweeps) - steps_->RestAlone(i, sweeps);
+  const double most_price = strained ? of_rest : std::min(of_rest, left);
   const auto fits = [&](int factorisations) {
     const bool more = odds.stepped() && (factorisations == 1 || steps_->HasJoints(i));
     return steps_->PriceAlone(g, i, factorisations) <= (more ? kMoreOnceStepped : 1) * most_price;
