@@ -246,6 +246,7 @@ TEST_P(PairKernelsOf, LinesOfOtherBlocksKeepTheirBits) {
   PairScene scene = RandomScene(spec);
   const PairScene before = scene;
   scene.blocks = {scene.blocks[1]};
+  scene.runs.resize(1);
   for (const Step& step : kSteps) scene.Run(kernels().*step.kernel);
   const std::size_t first = scene.blocks[0].x, last = first + scene.blocks[0].row_count;
   for (std::size_t i = 0; i < scene.x.size(); ++i) {
