@@ -58,7 +58,7 @@ int BlockStep<T>::Find(int refinements, Crew* crew) {
     WorkOn(kOpen);
     ForBlocks(kernels_.find_weights);
     const bool factorised =
-        system_->Factorise(*plan_, *group_, *blocks_, weights_, crew, deadline_);
+        system_->Factorise(*plan_, *group_, *blocks_, weights_, &of_blocks_, crew, deadline_);
     ForIslands([&](int island) {
       if (phases_[island] != kOpen) return;
       ++islands_[island].result.factorisations;
@@ -233,7 +233,7 @@ template <class T>
 void BlockStep<T>::MultiplyTransposed(const Array<LineT>& y, Array<T>* v) {
   std::fill(v->begin(), v->end(), T{0});
   const auto runs = plan_->runs_of(*group_);
-  const RunResults results(*group_, simd::kPairLines, &products_of_blocks_);
+  const RunResults results(*group_, simd::kPairLines, &of_blocks_);
   for (size_t r = 0; r < runs.size() && !Passes(deadline_, static_cast<int>(r)); ++r) {
     const simd::LaneRun& run = runs[r];
     LineT* const of_pair = results.Of(run);
@@ -378,7 +378,7 @@ bool BlockStep<T>::CondenseJoints(Crew* crew) {
     WorkOn(kOpen);
     ForBlocks(kernels_.find_joint_weights);
     before_ = x_;
-    if (system_->Factorise(*plan_, *group_, *blocks_, weights_, crew, deadline_)) {
+    if (system_->Factorise(*plan_, *group_, *blocks_, weights_, &of_blocks_, crew, deadline_)) {
       FindSmallest();
     }
   }

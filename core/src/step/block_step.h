@@ -94,7 +94,7 @@ class BlockStep : public detail::Placed {
 
   Array<simd::LaneSettings<T>> lanes_;  ///< by block
   Array<LineT> x_, start_, before_, w_, weights_, product_;
-  Array<LineT> products_of_blocks_;  ///< see RunResults
+  Array<LineT> of_blocks_;  ///< see RunResults
   Array<simd::SideLine> sides_, sides_before_;
   Array<T> u_, du_, wanted_;  ///< six numbers a node
   Array<double> sums_, counts_;

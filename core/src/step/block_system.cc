@@ -122,13 +122,13 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
 
 template <class T>
 bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
-                               std::span<const simd::LineOf<T>> weights, Crew* crew,
-                               Deadline* deadline) {
+                               std::span<const simd::LineOf<T>> weights,
+                               Array<simd::LineOf<T>>* scratch, Crew* crew, Deadline* deadline) {
   cholesky_.SetZero();
   for (int node = 0; node < nodes(); ++node) {
     for (int k = 0; k < 6; ++k) cholesky_.diagonal(node)[7 * k] = 1;
   }
-  const RunResults results(group, simd::kGramLines, &grams_);
+  const RunResults results(group, simd::kGramLines, scratch);
   const auto runs = plan.runs_of(group);
   for (size_t r = 0; r < runs.size() && !Passes(deadline, static_cast<int>(r)); ++r) {
     const simd::LaneRun& run = runs[r];

@@ -74,11 +74,12 @@ class BlockSystem : public detail::Placed {
   }
 
   /// Assembles and factorises. @p weights: one line for each x line of the group; rows of weight 0
-  /// are left out. False if rounding made H indefinite. @p deadline: where it passes, nothing comes
-  /// of it, nor of Solve().
+  /// are left out. @p scratch: one for all systems, see RunResults. False if rounding made H
+  /// indefinite. @p deadline: where it passes, nothing comes of it, nor of Solve().
   /// @pre IsPreparedFor() this group of this plan
   [[nodiscard]] bool Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
-                               std::span<const simd::LineOf<T>> weights, Crew* crew,
+                               std::span<const simd::LineOf<T>> weights,
+                               Array<simd::LineOf<T>>* scratch, Crew* crew,
                                Deadline* deadline = nullptr);
   /// Solves H v = rhs in place, six numbers a node.
   void Solve(std::span<T> rhs, Deadline* deadline = nullptr) { cholesky_.Solve(rhs, deadline); }
@@ -103,9 +104,8 @@ class BlockSystem : public detail::Placed {
   Array<int> node_of_slot_;
   Array<NodePair> pairs_;  ///< of the analysed graph
   Array<NodePair> known_pairs_, all_pairs_;
-  Array<simd::LineOf<T>> grams_;  ///< see RunResults
-  Array<int> pair_of_lane_;       ///< of the group's blocks; -1 where only one body moves
-  int lanes_ = 0;                 ///< where two do
+  Array<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
+  int lanes_ = 0;            ///< where two do
   double steps_ = 0, expected_steps_ = kExpectedSteps;  ///< of this analysis, and of others
 
   /// Before anything is known: what begins to be piled up goes on so for some frames.

@@ -62,22 +62,36 @@ class DeadlinesTest(unittest.TestCase):
     def test_has_a_row_for_each_world_and_budget(self):
         rows, said = self.rows("--scene", "tower:3", "--worlds", "3", "--budget", "1", "--budget", "50")
         self.assertEqual([(row["world"], row["budget ms"]) for row in rows],
-                         [("tower 3", "1"), ("tower 3", "50"), ("random worlds", "1"),
-                          ("random worlds", "50")])
+                         [(world, budget) for world in ("the clock alone", "tower 3", "random worlds")
+                          for budget in ("1", "50")])
         self.assertIn("min_sweeps 4", said)
         self.assertIn("the clock of the budgets: wall", said)
-        self.assertEqual(rows[1]["substeps"], "5")
+        # a loop of 0.2 s that waits for 1 ms
+        self.assertEqual(rows[0]["substeps"], "200")
+        self.assertGreaterEqual(float(rows[0]["wall over us"].split(" / ")[0]), 0)
+        self.assertEqual(rows[3]["substeps"], "5")
         # p50 of three boxes in 50 ms
-        self.assertLess(float(rows[1]["CPU over us"].split(" / ")[0]), -10000)
+        self.assertLess(float(rows[3]["CPU over us"].split(" / ")[0]), -10000)
+        self.assertNotIn("The latest substeps", said)
+
+    def test_shows_the_latest_substeps_one_by_one(self):
+        rows, said = self.rows("--scene", "tower:3", "--worlds", "0", "--budget", "50", "--worst", "2")
+        table = said.split("The latest substeps:")[1]
+        lines = [[cell.strip() for cell in line.strip("|").split("|")]
+                 for line in table.splitlines() if line.startswith("|")]
+        late = [dict(zip(lines[0], line)) for line in lines[2:]]
+        self.assertEqual([(row["world"], row["bodies"], row["islands"]) for row in late],
+                         2 * [("tower 3", "3", "1")])
+        self.assertGreaterEqual(float(late[0]["CPU over us"]), float(late[1]["CPU over us"]))
 
     def test_counts_substeps_that_cannot_fit(self):
         rows, said = self.rows("--scene", "tower:3", "--worlds", "0", "--budget", "0", "--clock", "cpu",
                                "--min-sweeps", "2")
         self.assertIn("CPU time of the thread", said)
-        self.assertEqual(rows[0]["too late %"], "100.0")
-        self.assertEqual(rows[0]["sweeps p50"], "2")
-        self.assertEqual(rows[0]["CPU over us"], "-")
-        self.assertGreater(float(rows[0]["by us"]), 0)
+        self.assertEqual(rows[1]["too late %"], "100.0")
+        self.assertEqual(rows[1]["sweeps p50"], "2")
+        self.assertEqual(rows[1]["CPU over us"], "-")
+        self.assertGreater(float(rows[1]["by us"]), 0)
 
     def test_what_cannot_be_is_refused(self):
         for words in (["--scene", "sandcastle"], ["--clock", "sun"], ["--seconds", "0"], ["--budget", "-1"],

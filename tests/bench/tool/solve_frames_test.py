@@ -105,7 +105,7 @@ class FramesTest(cli_test.CairnTest):
             self.assertEqual(texts, first, target)
 
     def test_more_sweeps_bring_the_residual_down(self):
-        path = self.record("wall", 40)
+        path = self.record("wall", 20)
         residuals = []
         for sweeps in ("2", "20", "200"):
             result = self.solve_json(path, "--max-sweeps", sweeps, "--errors", "none", "--solver",
