@@ -42,8 +42,9 @@ bool BlockAssembly<T>::AssembleAndFactorise() {
   const Plan& plan = frame_.plan();
   bool done = true;
   for (size_t g = 0; g < systems_.size(); ++g) {
-    done =
-        systems_[g].Factorise(plan, plan.groups()[g], frame_.blocks(), weights_[g], &crew_) && done;
+    done = systems_[g].Factorise(plan, plan.groups()[g], frame_.blocks(), weights_[g], &scratch_,
+                                 &crew_) &&
+           done;
   }
   return done;
 }

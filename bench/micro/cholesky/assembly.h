@@ -33,6 +33,7 @@ class BlockAssembly {
   Crew crew_{1};
   std::vector<BlockSystem<T>> systems_;                ///< one per group
   std::vector<std::vector<simd::LineOf<T>>> weights_;  ///< likewise
+  Array<simd::LineOf<T>> scratch_;
 };
 
 extern template class BlockAssembly<float>;
