@@ -13,10 +13,10 @@ namespace {
 constexpr int kLeastRun = 9, kLeastRunAfterStep = 30;
 /// A step that is weighed costs at most this share of all else on its island in whole lines, as
 /// prices have it: those of steps in doubles are a third too high.
-constexpr double kMostOfRest = 1.5;
-/// And all of it together so many times what sequential impulses row by row do. Joints are held by
-/// nothing else.
-constexpr double kMostOfScalar = 1.3, kMostOfScalarWithJoints = 2.2;
+constexpr double kMostOfRest = 1.5, kMostOfRestWithJoints = 1.0;
+/// And all of it together so many times what sequential impulses row by row do. With more of both
+/// wild chains at 30 Hz take steps that tear them.
+constexpr double kMostOfScalar = 1.3, kMostOfScalarWithJoints = 1.6;
 /// By so much more where there was a step in the last frame: steps that come and go do harm.
 /// Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
@@ -145,7 +145,8 @@ NoStep StepPlanner::Weigh(int g, int i) {
   if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
   const int sweeps = frame_->settings.max_sweeps;
   const double of_scalar = steps_->HasJoints(i) ? kMostOfScalarWithJoints : kMostOfScalar;
-  const double of_rest = kMostOfRest * steps_->RestInWholeLines(i, sweeps);
+  const double share = steps_->HasJoints(i) ? kMostOfRestWithJoints : kMostOfRest;
+  const double of_rest = share * steps_->RestInWholeLines(i, sweeps);
   const double left = of_scalar * steps_->ScalarAlone(i, sweeps) - steps_->RestAlone(i, sweeps);
   const double most_price = strained ? of_rest : std::min(of_rest, left);
   const auto fits = [&](int factorisations) {
