@@ -16,7 +16,7 @@ constexpr int kLeastRun = 9, kLeastRunAfterStep = 30;
 constexpr double kMostOfRest = 1.5, kMostOfRestWithJoints = 1.0;
 /// And all of it together so many times what sequential impulses row by row do. With more of both
 /// wild chains at 30 Hz take steps that tear them.
-constexpr double kMostOfScalar = 1.3, kMostOfScalarWithJoints = 1.6;
+constexpr double kMostOfScalar = 1.15, kMostOfScalarWithJoints = 1.6;
 /// By so much more where there was a step in the last frame: steps that come and go do harm.
 /// Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;

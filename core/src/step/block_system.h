@@ -22,7 +22,9 @@ class RunResults {
   RunResults(const Group& group, int lines, Array<Line>* memory)
       : group_(group), lines_(group.runs == group.blocks ? 0 : lines) {
     const auto places = static_cast<size_t>(group.runs == group.blocks ? 1 : group.blocks);
-    memory->resize(places * static_cast<size_t>(lines));
+    // never shorter: what begins to be used again would be set to zero
+    const size_t needed = places * static_cast<size_t>(lines);
+    if (memory->size() < needed) memory->resize(needed);
     first_ = memory->data();
   }
   /// Those of the block that a run is of.
