@@ -9,9 +9,6 @@ namespace {
 /// A step that brought the residual down to this share, and phi down, is kept without trying sweeps
 /// alone: that trial costs as much as the sweeps of the step do.
 constexpr double kSureGain = 0.7;
-/// Where trials have told that steps pay, on islands of contacts alone: residuals see how rough a
-/// step leaves an island. Sweeps alone would bring it down to a half or so; see StepTrial.
-constexpr double kMostRoughness = 2;
 /// What measuring a step and undoing it costs, in sweeps.
 constexpr double kJudgingSweeps = 2;
 
@@ -82,9 +79,7 @@ void StepTrials::TakeOfGroup(int group, std::span<const int> islands) {
 
 bool StepTrials::IsSure(int i) {
   if (frame_->weighs_steps() && parts_.steps->odds(i).wants_trial()) return false;
-  const bool trusted = frame_->weighs_steps() && !parts_.steps->HasJoints(i);
-  const double most = trusted ? kMostRoughness : kSureGain;
-  return with_step_[i].energy <= most * before_[i].energy && GainOfStep(i) >= 0;
+  return with_step_[i].energy <= kSureGain * before_[i].energy && GainOfStep(i) >= 0;
 }
 
 double StepTrials::GainOfStep(int i) const {
