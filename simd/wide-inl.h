@@ -64,8 +64,6 @@ struct FromLane {
   float* lane;
 
   HWY_INLINE float* operator[](int line) const { return lane + line * kLanes; }
-  HWY_INLINE void operator+=(int lines) { lane += lines * kLanes; }
-  HWY_INLINE FromLane operator+(int lines) const { return {lane + lines * kLanes}; }
 };
 struct ConstFromLane {
   const float* lane;

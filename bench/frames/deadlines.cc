@@ -240,8 +240,8 @@ void PrintDeadlines(const DeadlineOptions& options, const std::string& command) 
       "min_sweeps {}, threads {}\n"
       "- the clock of the budgets: {}\n"
       "- the clock alone: a loop for {:g} s that only waits for the time to be up, again and "
-      "again; "
-      "what it is late\n  by comes from the machine\n\n",
+      "again;\n"
+      "  what it is late by comes from the machine\n\n",
       options.frames, options.warm_up, options.worlds, options.seconds, options.first_seed,
       LeastSweeps(options.settings), options.settings.threads,
       options.clock == BudgetClock::kThreadCpu ? "CPU time of the thread" : "wall",
