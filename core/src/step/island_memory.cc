@@ -23,29 +23,34 @@ constexpr double kTooMuch = 1e4;
 constexpr double kCalm = 0.1;
 /// Steps after which it is asked again whether joints are redundant.
 constexpr int kMostPause = 3840;
-/// What joints are softened to at most where they are redundant.
+/// What joints are softened to at most where they are redundant, or fling bodies.
 constexpr double kMostJointProximal = 1e-3;
 constexpr int kMostJointLevel = 4;
 /// Opportunities passed over after a guard, the first time.
 constexpr int kGuardPause = 8;
 constexpr int kMostGuards = 4;
+/// After more guards in a row than this, joints are softened, ten times with each: a taut bridge
+/// that has opened would else close at once, by being flung sideways, or never again.
+constexpr int kLockedOut = 2;
+/// Steps kept in a row after which that is taken back by one.
+constexpr int kHardenAfter = 8;
 
-/// Level 0: as set. Level 1 condenses impulses; each further one is ten times softer, too.
-double SofteningOf(int level) {
-  double softening = 1;
-  for (int above = 1; above < level; ++above) softening *= 10;
-  return softening;
+/// Ten times softer for each level above 0.
+double ProximalOf(double set, int level) {
+  double softer = set;
+  for (; level > 0; --level) softer *= 10;
+  return std::max(set, std::min(softer, kMostJointProximal));
 }
 
 }  // namespace
 
 StepSettings IslandMemory::Step(const Settings& settings) const {
-  return {.proximal = std::clamp(settings.tuning.proximal * softening_, kLeastProximal, 1.0),
-          .proximal_joints = std::clamp(settings.proximal_joints * SofteningOf(joint_level_),
-                                        settings.proximal_joints, kMostJointProximal),
-          .factorisations = settings.k_sm,
-          .refinements = settings.tuning.refinements,
-          .condense_joints = condenses_joints()};
+  return {
+      .proximal = std::clamp(settings.tuning.proximal * softening_, kLeastProximal, 1.0),
+      .proximal_joints = ProximalOf(settings.proximal_joints, std::max(joint_level_ - 1, softer_)),
+      .factorisations = settings.k_sm,
+      .refinements = settings.tuning.refinements,
+      .condense_joints = condenses_joints()};
 }
 
 bool IslandMemory::Due(const Settings& settings) {
@@ -71,6 +76,10 @@ BlockSystem<double>& IslandMemory::block_system(simd::Target target) {
 
 void IslandMemory::Accepted(double least) {
   strikes_ = guards_ = 0;
+  if (softer_ > 0 && ++kept_since_guard_ >= kHardenAfter) {
+    --softer_;
+    kept_since_guard_ = 0;
+  }
   least_ *= kForgetFailures;
   softening_ = std::max({least, least_, softening_ / 2});
 }
@@ -99,7 +108,9 @@ void IslandMemory::SawJoints(const StepResult& result) {
 
 void IslandMemory::Guarded() {
   guard_pause_ = kGuardPause << guards_;
+  if (guards_ >= kLockedOut) softer_ = std::min(kMostGuards, softer_ + 1);
   guards_ = std::min(kMostGuards, guards_ + 1);
+  kept_since_guard_ = 0;
 }
 
 void IslandMemory::Restored() {

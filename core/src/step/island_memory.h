@@ -35,6 +35,7 @@ class IslandMemory : public detail::Placed {
   void Accepted(double least = kLeastSoftening);
   void Restored();
   /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
+  /// Where nothing else comes of it for long, joints are softened until some steps were kept.
   void Guarded();
   /// How large impulses of joints were in a step. Where they are larger than floats can hold
   /// against each other, joints are redundant, and are condensed from then on; where that is not
@@ -68,6 +69,8 @@ class IslandMemory : public detail::Placed {
   int strikes_ = 0;                   ///< rejections in a row
   int pause_ = 0;                     ///< opportunities still to be passed over
   int guards_ = 0, guard_pause_ = 0;  ///< how often of late, and likewise after one
+  /// How much softer joints are since guards undid several steps in a row, and steps kept since.
+  int softer_ = 0, kept_since_guard_ = 0;
   /// How much is done about redundant joints, steps in a row without need for it, and steps until
   /// they are looked at again.
   int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = kLeastJointPause;
