@@ -57,6 +57,7 @@ void WriteRow(const RowScene& scene, const RowScene::Pair& pair, int index, Lane
   const RowBound bound = scene.layouts[pair.layout][index].bound;
   if (bound == RowBound::kOwn) writer->Add(-row.limit);
   if (bound == RowBound::kOwn || bound == RowBound::kFriction) writer->Add(row.limit);
+  writer->Add(0);  // the coupling, which is filled in later
 }
 
 /// As Plan has it: they may be relaxed together.
@@ -111,6 +112,7 @@ void PairScene::AddBlock(const RowScene& scene, int first_pair) {
     }
     for (int i = 0; i < block.row_count; ++i) WriteRow(scene, pair, i, &writer);
   }
+  simd::PairKernelsFor(simd::Target::kScalar).couple(block, &data_[block.data]);
   blocks_.push_back(block);
 }
 

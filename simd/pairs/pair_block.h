@@ -86,11 +86,13 @@ constexpr int BoundLines(RowBound bound) {
 }
 
 /// Lines of a row: G, target, step > 0 (relaxation / d), compliance if soft, relaxation if relaxed,
-/// bounds.
+/// bounds, coupling: G times that of the row before, 0 for the first row.
 constexpr int RowLines(PairForm form, const RowShape& row) {
-  return JacobianLines(form) + 2 + (row.soft ? 1 : 0) + (row.relaxed ? 1 : 0) +
+  return JacobianLines(form) + 3 + (row.soft ? 1 : 0) + (row.relaxed ? 1 : 0) +
          BoundLines(row.bound);
 }
+/// The coupling is the last of them.
+constexpr int CouplingLine(PairForm form, const RowShape& row) { return RowLines(form, row) - 1; }
 
 /// 16 pairs with rows that look alike. Lines of unused lanes may hold anything.
 struct PairBlock {

@@ -24,10 +24,14 @@ struct LaneState {
   float v[12];
   float before[3];  ///< relative linear velocity that the pair began with
   float c_a, c_b;
+  /// G of the row before if what it changed was not pushed to v yet, and that change.
+  const Line* changed;
+  float change;
 };
 
 LaneState Gather(PairForm form, const Line* pair, const float* a, const float* b, int lane) {
   LaneState state;
+  state.changed = nullptr;
   if (form != PairForm::kContact) {
     for (int i = 0; i < 3; ++i) {
       state.v[i] = a[i];
@@ -91,6 +95,13 @@ float Clamp(const RowShape& row, const Line* line, float parent, float x, int la
   return Min(Max(x, Max(least, line[1].lane[lane])), Min(most, line[2].lane[lane]));
 }
 
+void PushChange(PairForm form, int lane, LaneState* state) {
+  for (int i = 0; i < JacobianLines(form) && state->changed != nullptr; ++i) {
+    state->v[i] = state->v[i] + state->changed[i].lane[lane] * state->change;
+  }
+  state->changed = nullptr;
+}
+
 /// One row of one lane. @p x: the first impulse of the block.
 void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, const Line* line,
            Line* x, int lane, LaneState* state, BlockError* error) {
@@ -109,8 +120,13 @@ void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, c
     const float step = line[n + 1].lane[lane];
     const float inv_d = row.relaxed ? step / (bounds++)->lane[lane] : step;
     const float factor = pass == Pass::kMeasure ? inv_d : step;
-    const float rest = old + factor * (target - tail);
-    const float moved = rest - factor * Sum(line, state->v, lane, 0, head);
+    const float product = Sum(line, state->v, lane, 0, head) + tail;
+    float moved = old + factor * (target - product);
+    if (state->changed != nullptr) {
+      const float coupling = line[CouplingLine(block.form, row)].lane[lane];
+      moved = moved - factor * coupling * state->change;
+    }
+    PushChange(block.form, lane, state);
     float now = Clamp(row, bounds, parent, moved, lane);
     change = now - old;
     if (work.hold_lifted && row.parent >= 0 && pass != Pass::kMeasure) {
@@ -127,7 +143,9 @@ void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, c
     x[index].lane[lane] = now;
   }
 
-  for (int i = 0; i < n; ++i) state->v[i] = state->v[i] + line[i].lane[lane] * change;
+  state->changed = line;
+  state->change = change;
+  if (pass == Pass::kStart) PushChange(block.form, lane, state);
 }
 
 void RunLane(Pass pass, const PairWork& work, const PairBlock& block, int lane, BlockError* error) {
@@ -143,9 +161,12 @@ void RunLane(Pass pass, const PairWork& work, const PairBlock& block, int lane, 
     const bool passed_over = pass == Pass::kFriction && row.parent < 0;
     if (!passed_over && !(sweeps && work.sweep >= row.max_sweeps)) {
       Relax(pass, work, block, i, line, x, lane, &state, error);
+    } else {
+      PushChange(block.form, lane, &state);
     }
     line += RowLines(block.form, row);
   }
+  PushChange(block.form, lane, &state);
   if (pass != Pass::kMeasure) Scatter(block.form, state, a, b);
 }
 
@@ -174,11 +195,32 @@ void MeasureBlocks(const PairWork& work) {
   }
 }
 
+void Couple(const PairBlock& block, Line* lines) {
+  const FlushDenormals flush;
+  const Line* before = nullptr;
+  Line* line = lines + PairLines(block.form);
+  for (int i = 0; i < block.row_count; ++i) {
+    Line& coupling = line[CouplingLine(block.form, block.rows[i])];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      float sum = 0;
+      for (int k = 0; k < JacobianLines(block.form) && before != nullptr; ++k) {
+        sum = sum + line[k].lane[lane] * before[k].lane[lane];
+      }
+      coupling.lane[lane] = sum;
+    }
+    before = line;
+    line += RowLines(block.form, block.rows[i]);
+  }
+}
+
 }  // namespace
 
 const PairKernels& ReferencePairKernels() {
-  static constexpr PairKernels kKernels = {Run<Pass::kStart>, Run<Pass::kSweep>,
-                                           Run<Pass::kMeasuredSweep>, Run<Pass::kFriction>,
+  static constexpr PairKernels kKernels = {Couple,
+                                           Run<Pass::kStart>,
+                                           Run<Pass::kSweep>,
+                                           Run<Pass::kMeasuredSweep>,
+                                           Run<Pass::kFriction>,
                                            MeasureBlocks};
   return kKernels;
 }

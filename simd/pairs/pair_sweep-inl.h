@@ -203,7 +203,8 @@ struct ErrorSums {
   }
 };
 
-/// A run on its way through the rows.
+/// A run on its way through the rows. What a row changed is pushed to the bodies when the next one
+/// has read them: that one takes it into account by its coupling, and waits less.
 template <PairForm form, Pass pass, class W>
 struct RunState {
   /// Registers that are shorter than a line may hold lanes of other runs beside those of this one.
@@ -216,6 +217,8 @@ struct RunState {
   Own own;
   PairState<form, W> pair;
   ErrorSums<W> errors;
+  ConstFromLane changed = {};  ///< the row before, if its change was not pushed yet
+  W change_before;
 
   HWY_INLINE RunState(const PairWork& work, const LaneRun& run) : own(run.lanes) {
     const PairBlock& block = work.blocks[run.block];
@@ -231,8 +234,15 @@ struct RunState {
       pair.Push(line, LoadLanes<W>(x[i]));
     } else if (TakesPart(work, row)) {
       Relax(work, row, x[i]);
+    } else {
+      PushChange();
     }
     line += RowLines(form, row);
+  }
+  HWY_INLINE void PushChange() {
+    if (changed.lane == nullptr) return;
+    pair.Push(changed, change_before);
+    changed = {};
   }
   HWY_INLINE static bool TakesPart(const PairWork& work, const RowShape& row) {
     if (pass == Pass::kFriction && row.parent < 0) return false;
@@ -254,10 +264,15 @@ struct RunState {
       if (Measures(pass)) inv_d = Div(step, LoadLanes<W>(bounds[0]));
       bounds += 1;
     }
-    // old + factor (target - G v); what does not depend on the row before is added first
+    // old + factor (target - G v)
     const W factor = pass == Pass::kMeasure ? inv_d : step;
-    const W rest = Add(old, Mul(factor, Sub(target, pair.Tail(line))));
-    const W moved = Sub(rest, Mul(factor, pair.Head(line)));
+    const W error = Sub(target, Add(pair.Head(line), pair.Tail(line)));
+    W moved = Add(old, Mul(factor, error));
+    if (pass != Pass::kMeasure && changed.lane != nullptr) {
+      const W coupling = LoadLanes<W>(line[CouplingLine(form, row)]);
+      moved = Sub(moved, Mul(Mul(factor, coupling), change_before));
+      pair.Push(changed, change_before);
+    }
     W now = Clamp(row, bounds, x, moved);
     // what the bodies see is what becomes of the impulse, as a float has it
     W change = Sub(now, old);
@@ -269,9 +284,11 @@ struct RunState {
     }
     if (pass == Pass::kMeasuredSweep) errors.Add(row, change, inv_d);
     StoreLanes(kShared ? own.Choose(now, old) : now, x_row);
-    pair.Push(line, change);
+    changed = line;
+    change_before = change;
   }
-  HWY_INLINE void End(const PairWork& work, const LaneRun& run) const {
+  HWY_INLINE void End(const PairWork& work, const LaneRun& run) {
+    PushChange();
     if (pass != Pass::kMeasure) pair.Scatter(work, place);
     if (Measures(pass)) errors.Store(run.first, work.errors + run.block);
   }
@@ -370,9 +387,37 @@ void MeasureBlocks(const PairWork& work) {
   }
 }
 
-constexpr PairKernels kPairKernels = {Run<Pass::kStart>, Run<Pass::kSweep>,
-                                      Run<Pass::kMeasuredSweep>, Run<Pass::kFriction>,
-                                      MeasureBlocks};
+template <PairForm form>
+void Couple(const PairBlock& block, Line* lines) {
+  using W = Wide<kLanes>;
+  const Line* before = nullptr;
+  Line* line = lines + PairLines(form);
+  for (int i = 0; i < block.row_count; ++i) {
+    W coupling = Zeros<W>();
+    for (int k = 0; k < JacobianLines(form) && before != nullptr; ++k) {
+      coupling = AddProduct(coupling, LoadLanes<W>(line[k].lane), LoadLanes<W>(before[k].lane));
+    }
+    StoreLanes(coupling, line[CouplingLine(form, block.rows[i])].lane);
+    before = line;
+    line += RowLines(form, block.rows[i]);
+  }
+}
+
+void CoupleRows(const PairBlock& block, Line* lines) {
+  const FlushDenormals flush;
+  switch (block.form) {
+    case PairForm::kJoint:
+      return Couple<PairForm::kJoint>(block, lines);
+    case PairForm::kContact:
+      return Couple<PairForm::kContact>(block, lines);
+    case PairForm::kSingle:
+      return Couple<PairForm::kSingle>(block, lines);
+  }
+}
+
+constexpr PairKernels kPairKernels = {CoupleRows,           Run<Pass::kStart>,
+                                      Run<Pass::kSweep>,    Run<Pass::kMeasuredSweep>,
+                                      Run<Pass::kFriction>, MeasureBlocks};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace cairn::simd

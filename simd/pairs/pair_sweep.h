@@ -25,6 +25,9 @@ struct PairWork {
 struct PairKernels {
   using Kernel = void (*)(const PairWork& work);
 
+  /// Fills in the couplings of a block whose other lines are there. @p lines: its first
+  void (*couple)(const PairBlock& block, Line* lines);
+
   /// u += G' x, to start from given impulses.
   Kernel start;
   /// Relaxes every row alone, one after the other, and brings it back inside its bounds:

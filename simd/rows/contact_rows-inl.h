@@ -246,17 +246,20 @@ class Packer {
     PutRow(point, point.number + kNormal, compliance,
            [&](Vector, int l) HWY_ATTR { return Load(point.wanted, l); });
     *x = point.x[0];
-    if (compliance == nullptr) return;
-    for (int l = 0; l < kLanes; l += kWidth) {
-      Demand(hn::Ge(Load(*compliance, l), hn::Zero(D())));
+    if (compliance != nullptr) {
+      for (int l = 0; l < kLanes; l += kWidth) {
+        Demand(hn::Ge(Load(*compliance, l), hn::Zero(D())));
+      }
+      *out_++ = *compliance;
     }
-    *out_++ = *compliance;
+    ++out_;  // the coupling
   }
 
   void PutFriction(const Point& point, const Line* direction, const Line& start, Line* x) {
     PutRow(point, direction, nullptr,
            [&](Vector d, int l) HWY_ATTR { return hn::Zero(D()) - Dot(d, At(point.slide, l)); });
     *out_++ = point.number[kFriction];
+    ++out_;  // the coupling
     *x = start;
   }
 
@@ -281,7 +284,7 @@ class Packer {
       Demand(hn::And(hn::Le(hn::Abs(start), Set(kMost)), hn::Ge(most, zero)));
       Demand(hn::And(hn::Ge(coefficient, zero), hn::Le(coefficient, Set(kMost))));
     }
-    out_ += BoundLines(RowBound::kCutFriction);
+    out_ += BoundLines(RowBound::kCutFriction) + 1;  // and the coupling
   }
 
   const ContactLanes& lanes_;

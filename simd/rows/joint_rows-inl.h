@@ -62,6 +62,7 @@ class JointPacker {
       } else {
         x_[i] = start_;
       }
+      ++out_;  // the coupling
     }
     return fits_;
   }

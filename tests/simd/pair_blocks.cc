@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "simd/pairs/pair_reference.h"
+
 namespace cairn::simd::test {
 namespace {
 
@@ -124,8 +126,15 @@ testing::AssertionResult SameFloats(const float* a, const float* b, int count) {
 
 }  // namespace
 
+void PairScene::Couple(const PairKernels& kernels) {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    blocks[i].rows = shapes[i].data();
+    kernels.couple(blocks[i], PairOf(static_cast<int>(i)));
+  }
+}
+
 void PairScene::Run(PairKernels::Kernel kernel) {
-  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].rows = shapes[i].data();
+  Couple(ReferencePairKernels());
   PairWork work;
   work.blocks = blocks.data();
   work.runs = runs.data();
@@ -146,13 +155,14 @@ RowView PairScene::View(int block, int row) {
   Line* line = PairOf(block) + PairLines(form);
   for (int i = 0; i < row; ++i) line += RowLines(form, rows[i]);
 
-  RowView view = {line, nullptr, nullptr, nullptr, nullptr, nullptr};
+  RowView view = {.g = line};
   line += JacobianLines(form);
   view.target = line++;
   view.step = line++;
   if (rows[row].soft) view.compliance = line++;
   if (rows[row].relaxed) view.relaxation = line++;
   if (BoundLines(rows[row].bound) > 0) view.bounds = line;
+  view.coupling = view.g + CouplingLine(form, rows[row]);
   return view;
 }
 

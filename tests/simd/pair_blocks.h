@@ -30,11 +30,12 @@ struct SceneSpec {
 /// The lines of one row; null where the row has none.
 struct RowView {
   Line* g;
-  Line* target;
-  Line* step;
-  Line* compliance;
-  Line* relaxation;
-  Line* bounds;
+  Line* target = nullptr;
+  Line* step = nullptr;
+  Line* compliance = nullptr;
+  Line* relaxation = nullptr;
+  Line* bounds = nullptr;
+  Line* coupling = nullptr;
 };
 
 /// Owns what a PairWork points to. Copies are independent.
@@ -48,6 +49,9 @@ struct PairScene {
   int sweep = 0;
   bool hold_lifted = false;
 
+  /// Fills in the couplings of all blocks.
+  void Couple(const PairKernels& kernels);
+  /// With the couplings that the reference finds.
   void Run(PairKernels::Kernel kernel);
 
   /// c_a and c_b. @pre the block is of form kContact

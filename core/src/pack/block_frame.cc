@@ -135,7 +135,8 @@ BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
           .omega = omega_,
           .pack_row = pack_row_,
           .pack_joints = pack_joints_,
-          .contacts = *contact_kernels_};
+          .contacts = *contact_kernels_,
+          .couple = kernels_->couple};
 }
 
 bool BlockFrame::SameJointsAndManifolds(const ContactProblem& problem, Crew* crew) const {

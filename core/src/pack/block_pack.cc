@@ -157,7 +157,7 @@ class OneBlock {
       PutKind(shape);
       const PackResult result = PutImpulses(i, shape, impulses);
       if (result != PackResult::kDone) return result;
-      line_ += simd::BoundLines(shape.bound);
+      line_ += simd::BoundLines(shape.bound) + 1;  // and the coupling
     }
     return PackResult::kDone;
   }
@@ -320,6 +320,7 @@ PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulse
   for (int block = first_block; block < first_block + count; ++block) {
     const PackResult result = PackBlock(block, impulses, blocks);
     if (result != PackResult::kDone) return result;
+    couple(plan.blocks()[block], blocks->data.data() + plan.blocks()[block].data);
   }
   return PackResult::kDone;
 }

@@ -47,6 +47,7 @@ struct BlockPacker {
   simd::RowPackKernel pack_row;
   simd::JointRowsKernel pack_joints;
   const simd::ContactKernels& contacts;
+  void (*couple)(const simd::PairBlock& block, simd::Line* lines);
 
   /// A body as joints and contacts see it.
   const simd::ContactBody* contact_body(int body) const {

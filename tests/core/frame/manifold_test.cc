@@ -139,16 +139,24 @@ TEST(Manifold, HasTheLinesOfItsRows) {
         const bool joint = pair.source == RowSource::kJoint;
         const int first = (joint ? first_of_joint : first_of_manifold)[pair.index];
         const simd::Line* line = &frame.blocks().data[block.data] + simd::PairLines(block.form);
-        std::vector<double> x;
+        std::vector<double> x, before;
         for (int i = 0; i < block.row_count; ++i) {
           const int index = first + i;
           const Row& row = rows.rows[index];
-          for (const double expected : LinesOf(frame, row, pair, block.rows[i])) {
+          const std::vector<double> lines = LinesOf(frame, row, pair, block.rows[i]);
+          for (const double expected : lines) {
             const double tolerance = kFloat * (1 + std::abs(expected));
             const double actual = (line++)->lane[lane];
             if (actual == expected) continue;  // infinity, too
             ASSERT_NEAR(actual, expected, tolerance) << seed << " row " << i;
           }
+          double coupling = 0, size = 1;
+          for (int k = 0; k < simd::JacobianLines(block.form) && i > 0; ++k) {
+            coupling += lines[k] * before[k];
+            size += std::abs(lines[k] * before[k]);
+          }
+          ASSERT_NEAR((line++)->lane[lane], coupling, 2 * kFloat * size) << seed << " row " << i;
+          before = lines;
           // the start, inside its bounds
           const double most =
               row.parent == kNoRow ? kInfinity : row.friction * x[row.parent - first];

@@ -148,8 +148,8 @@ TEST(Pairs, HaveTheLinesOfTheirRows) {
     EXPECT_EQ(rows[i].parent, i % 3 == 0 ? -1 : i / 3 * 3);
     EXPECT_FALSE(rows[i].soft || rows[i].angular || rows[i].relaxed);
   }
-  EXPECT_EQ(found.shapes.lines(PairForm::kContact, 0), 4 * (11 + 12 + 12));
-  EXPECT_EQ(found.shapes.lines(PairForm::kSingle, 0), 4 * (8 + 9 + 9));
+  EXPECT_EQ(found.shapes.lines(PairForm::kContact, 0), 4 * (12 + 13 + 13));
+  EXPECT_EQ(found.shapes.lines(PairForm::kSingle, 0), 4 * (9 + 10 + 10));
 }
 
 TEST(Pairs, CountStaticBodiesAsTheWorld) {
