@@ -2,6 +2,7 @@
 #include "simd/pairs/pair_reference.h"
 
 #include <cmath>
+#include <limits>
 
 #include "simd/flush_denormals.h"
 
@@ -14,9 +15,13 @@ constexpr bool Measures(Pass pass) {
   return pass == Pass::kMeasuredSweep || pass == Pass::kMeasure;
 }
 
-// Maximum and minimum as x86 has them: the second operand if the two are equal or one is NaN.
-float Max(float a, float b) { return a > b ? a : b; }
-float Min(float a, float b) { return a < b ? a : b; }
+// Maximum and minimum as x86 has them: the second operand if the two are equal or one is NaN; 0 for
+// a bound that is too small for a normal float, which a copy would keep.
+float Flushed(float x) {
+  return std::fabs(x) < std::numeric_limits<float>::min() ? std::copysign(0.0f, x) : x;
+}
+float Max(float a, float b) { return Flushed(a > b ? a : b); }
+float Min(float a, float b) { return Flushed(a < b ? a : b); }
 
 /// What is true of the pair while its rows are worked on. v are the numbers that G multiplies: u of
 /// both bodies, or for PairForm::kContact the relative linear velocity and both angular parts.

@@ -351,6 +351,29 @@ TEST_P(PairKernelsOf, ImpulsesThatDecayToDenormalsBecomeZero) {
     EXPECT_EQ(scene.X(0, 1, lane), 0);
   }
 }
+
+// Joints that break at 1e-43 N s have such bounds. A copy of one would not be 0, and break them.
+TEST_P(PairKernelsOf, BoundsTooSmallForANormalFloatAreZero) {
+  constexpr float kTiny = 1e-42f;
+  ASSERT_EQ(std::fpclassify(kTiny), FP_SUBNORMAL);
+  SceneSpec spec;
+  spec.blocks = {{PairForm::kSingle, {{.bound = RowBound::kOwn}, {.bound = RowBound::kOwn}}}};
+  PairScene scene = test::ZeroScene(spec);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    for (const int row : {0, 1}) {
+      const test::RowView view = scene.View(0, row);
+      view.g[0].lane[lane] = view.step->lane[lane] = 1;
+      view.target->lane[lane] = row == 0 ? 1 : -1;  // one row comes to each bound
+      view.bounds[0].lane[lane] = -kTiny;
+      view.bounds[1].lane[lane] = kTiny;
+    }
+  }
+  scene.Run(kernels().sweep);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    EXPECT_EQ(scene.X(0, 0, lane), 0);
+    EXPECT_EQ(scene.X(0, 1, lane), 0);
+  }
+}
 #endif
 
 }  // namespace
