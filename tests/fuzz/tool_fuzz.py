@@ -251,7 +251,7 @@ class Command:
             elif kind == 3:
                 words.insert(at, source.choice(source.choice(LINES).format(**self.names).split()))
             elif kind == 4 and words:
-                text = mutate_text(words[at].encode(), source).replace(b"\0", b"")
+                text = mutate_text(os.fsencode(words[at]), source).replace(b"\0", b"")
                 # more digits are more work, which may be asked for
                 words[at] = os.fsdecode(text[:len(words[at]) if words[at].isdigit() else 200])
             elif kind == 5:
