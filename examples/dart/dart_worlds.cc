@@ -145,7 +145,7 @@ Scene Stack(int boxes, double push) {
   return {std::to_string(boxes) + " boxes" + how, build, "top at", 0.5 * boxes, 0.01};
 }
 
-/// 28 joint axes with servos that hold a man of 75 kg upright, each foot with toes.
+/// 30 joint axes with servos that hold a man of 75 kg upright, each foot with toes.
 Scene Humanoid() {
   const auto build = [](const WorldPtr& world) {
     AddFixed({20, 20, 1}, {0, 0, -0.5}, world);
@@ -171,8 +171,8 @@ Scene Humanoid() {
   return {"humanoid on servos", build, "head at", 1.6, 0.02, true};
 }
 
-/// A ring of @p links on ball joints, which falls upright onto the ground and lies down. DART keeps
-/// trees: the last joint is a constraint.
+/// A ring of @p links on ball joints, which falls upright onto the ground. DART keeps trees: the
+/// last joint is a constraint.
 Scene Ring(int links) {
   const auto build = [links](const WorldPtr& world) {
     AddFixed({20, 20, 1}, {0, 0, -0.5}, world);

@@ -28,8 +28,7 @@ HWY_INLINE W Product(const float* g, const W& v) {
   return Mul(LoadLanes<W>(g), v);
 }
 
-// Sums of 2, 4 and 8 products as balanced trees: fewer steps from the velocities of one row to the
-// impulse of the next than one sum after the other.
+// Sums of 2, 4 and 8 products as balanced trees: fewer steps than one sum after the other.
 template <class W>
 HWY_INLINE W Sum2(ConstFromLane g, const W& v0, const W& v1) {
   return Add(Product(g[0], v0), Product(g[1], v1));

@@ -35,7 +35,7 @@ class IslandMemory : public detail::Placed {
   void Accepted(double least = kLeastSoftening);
   void Restored();
   /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
-  /// Where nothing else comes of it for long, joints are softened until some steps were kept.
+  /// From the third in a row on joints are softened, too, until some steps were kept.
   void Guarded();
   /// How large impulses of joints were in a step. Where they are larger than floats can hold
   /// against each other, joints are redundant, and are condensed from then on; where that is not
