@@ -43,7 +43,7 @@ constexpr double SweepRow(int lanes) {
 /// Sequential impulses row by row, as Bullet 3.24 makes them: an iteration, and all before and
 /// after; likewise fitted, and the share of that which an island without a step may take.
 constexpr double kScalarSweepRow = 8, kScalarRow = 80, kScalarJointRow = 160;
-constexpr double kShareOfScalar = 0.65;
+constexpr double kShareOfScalar = 0.85;
 
 }  // namespace
 

@@ -150,7 +150,7 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const double left = of_scalar * steps_->ScalarAlone(i, sweeps) - steps_->RestAlone(i, sweeps);
   const double most_price = strained ? of_rest : std::min(of_rest, left);
   const auto fits = [&](int factorisations) {
-    const bool more = odds.stepped() && (factorisations == 1 || steps_->HasJoints(i));
+    const bool more = odds.stepped_of_late() && (factorisations == 1 || steps_->HasJoints(i));
     return steps_->PriceAlone(g, i, factorisations) <= (more ? kMoreOnceStepped : 1) * most_price;
   };
   int most = frame_->settings.k_sm;

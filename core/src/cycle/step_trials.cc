@@ -8,7 +8,7 @@ namespace {
 
 /// A step that brought the residual down to this share, and phi down, is kept without trying sweeps
 /// alone: that trial costs as much as the sweeps of the step do.
-constexpr double kSureGain = 0.7;
+constexpr double kSureGain = 0.5;
 /// What measuring a step and undoing it costs, in sweeps.
 constexpr double kJudgingSweeps = 2;
 

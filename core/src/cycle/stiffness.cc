@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/detail/stiffness.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,6 +9,7 @@
 
 #include "cairn/detail/eigen.h"
 #include "cycle/joint_arms.h"
+#include "simd/principal_axes.h"
 #include "step/island_memories.h"
 
 namespace cairn {
@@ -35,17 +36,41 @@ double Sum(const float (&vector)[3]) {
   return static_cast<double>(std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]));
 }
 
-/// Stiffness about each principal axis, at least what K turns by (Gershgorin).
+/// Stiffness about each principal axis, at least what K turns by (Gershgorin). K is symmetric.
 Eigen::Vector3d AboutAxes(const Eigen::Matrix3d& stiffness, const Eigen::Matrix3d& axes) {
-  const Eigen::Matrix3d local = axes.transpose() * stiffness * axes;
-  Eigen::Vector3d result;
-  for (int i = 0; i < 3; ++i) {
-    double sum = local(i, i);
-    for (int j = 0; j < 3; ++j) sum += i == j ? 0 : std::abs(local(i, j));
-    result[i] = std::max(0.0, sum);
-  }
-  return result;
+  const Eigen::Vector3d of_x = stiffness * axes.col(0), of_y = stiffness * axes.col(1),
+                        of_z = stiffness * axes.col(2);
+  const double xy = std::abs(axes.col(0).dot(of_y)), xz = std::abs(axes.col(0).dot(of_z)),
+               yz = std::abs(axes.col(1).dot(of_z));
+  return Eigen::Vector3d(axes.col(0).dot(of_x) + xy + xz, axes.col(1).dot(of_y) + xy + yz,
+                         axes.col(2).dot(of_z) + xz + yz)
+      .cwiseMax(0);
 }
+
+/// Makes symmetric matrices with those axes.
+class MatrixMaker {
+ public:
+  explicit MatrixMaker(const Eigen::Matrix3d& axes) {
+    for (int column = 0, k = 0; column < 3; ++column) {
+      for (int row = column; row < 3; ++row) {
+        products_[k++] = axes.row(row).cwiseProduct(axes.row(column)).transpose();
+      }
+    }
+  }
+
+  Matrix3 Make(const Eigen::Vector3d& eigenvalues) const {
+    Matrix3 matrix;
+    for (int column = 0, k = 0; column < 3; ++column) {
+      for (int row = column; row < 3; ++row) {
+        matrix(row, column) = matrix(column, row) = products_[k++].dot(eigenvalues);
+      }
+    }
+    return matrix;
+  }
+
+ private:
+  Eigen::Vector3d products_[6];
+};
 
 /// Axes of equal moments turn with rounding: they share what any of them needs.
 void ShareAmongEqual(const Eigen::Vector3d& inv_moments, Eigen::Vector3d* k) {
@@ -56,51 +81,84 @@ void ShareAmongEqual(const Eigen::Vector3d& inv_moments, Eigen::Vector3d* k) {
   if (inv_moments[1] - inv_moments[0] <= kSameMoment * inv_moments[1]) (*k)[0] = (*k)[1];
 }
 
+/// Chosen once for all: bits do not depend on it.
+simd::PrincipalAxesKernel AxesKernel() {
+  static const simd::PrincipalAxesKernel kKernel =
+      simd::PrincipalAxesKernelFor(simd::ChosenTarget());
+  return kKernel;
+}
+
 }  // namespace
 
 std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     double time_step, std::span<Body> bodies) {
   raised_.clear();
   raised_.reserve(memories_.size());
+  FindStrained(time_step, bodies);
+  simd::PrincipalAxes axes;
+  for (size_t from = 0; from < strained_.size(); from += simd::kLanes) {
+    const size_t count = std::min<size_t>(simd::kLanes, strained_.size() - from);
+    const std::span<const Strained> some(&strained_[from], count);
+    for (size_t l = 0; l < count; ++l) {
+      const auto inv_inertia = View(bodies[some[l].body].inv_inertia);
+      for (int column = 0, k = 0; column < 3; ++column) {
+        for (int row = column; row < 3; ++row) axes.matrix[k++][l] = inv_inertia(row, column);
+      }
+    }
+    AxesKernel()(&axes);
+    for (size_t l = 0; l < count; ++l) {
+      const Vector3 moments = {axes.moment[0][l], axes.moment[1][l], axes.moment[2][l]};
+      Eigen::Matrix3d of_body;
+      for (int k = 0; k < 9; ++k) of_body(k % 3, k / 3) = axes.axis[k][l];
+      Raise(time_step, some[l], moments, of_body, bodies);
+    }
+  }
+  return raised_;
+}
+
+void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies) {
+  strained_.clear();
+  strained_.reserve(memories_.size());
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     Body& body = bodies[i];
     body.strain = 0;
     if (memories_.empty()) continue;
-    Memory* const found = Find(body, i);
-    if (found == nullptr || found->inv_mass != body.inv_mass) continue;
-    Memory& memory = *found;
+    Memory* const memory = Find(body, i);
+    if (memory == nullptr || memory->inv_mass != body.inv_mass) continue;
     // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
-    const double most = 2 * (View(memory.stiffness) * View(body.inv_inertia)).norm();
-    memory.held_ratio *= kHold;
-    body.strain = time_step * time_step * std::max(most, memory.held_ratio);
+    const double most = 2 * (View(memory->stiffness) * View(body.inv_inertia)).norm();
+    memory->held_ratio *= kHold;
+    body.strain = time_step * time_step * std::max(most, memory->held_ratio);
     if (body.strain <= kThreshold) {
-      View(memory.held) *= kHold;
-      continue;
+      View(memory->held) *= kHold;
+    } else {
+      strained_.push_back({i, memory});
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(View(body.inv_inertia));
-    if (solver.info() != Eigen::Success) continue;
-    const Eigen::Vector3d inv_moments = solver.eigenvalues().cwiseMax(0);
-    const Eigen::Matrix3d& axes = solver.eigenvectors();
-    Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * View(memory.held));
-    ShareAmongEqual(inv_moments, &k);
-    memory.held = k;
-    memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
-
-    const Eigen::Vector3d ratio = time_step * time_step * k.cwiseProduct(inv_moments);
-    body.strain = ratio.maxCoeff();
-    if (body.strain <= kThreshold) continue;
-    const Eigen::Vector3d kept =
-        (1 + (ratio.array() - kThreshold).max(0)).inverse().matrix();  // I / raised I
-    const Eigen::Vector3d damping = kDamping * (1 - kept.array()).matrix();
-    // an assignment and a construction need not sum in the same order
-    Eigen::Matrix3d lower;
-    lower = axes * inv_moments.cwiseProduct(kept).asDiagonal() * axes.transpose();
-    body.inv_inertia = 0.5 * (lower + lower.transpose());
-    const Eigen::Matrix3d damped = axes * damping.asDiagonal() * axes.transpose();
-    const Eigen::Matrix3d response = axes * kept.asDiagonal() * axes.transpose();
-    raised_.push_back({i, damped, response});
   }
-  return raised_;
+}
+
+void GeometricStiffness::Raise(double time_step, const Strained& strained, const Vector3& moments,
+                               const Matrix3& principal, std::span<Body> bodies) {
+  const auto axes = View(principal);
+  if (!View(moments).allFinite() || !axes.allFinite()) return;
+  const Eigen::Vector3d inv_moments = View(moments).cwiseMax(0);
+  Body& body = bodies[strained.body];
+  Memory& memory = *strained.memory;
+  Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * View(memory.held));
+  ShareAmongEqual(inv_moments, &k);
+  memory.held = k;
+  memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
+
+  const Eigen::Vector3d ratio = time_step * time_step * k.cwiseProduct(inv_moments);
+  body.strain = ratio.maxCoeff();
+  if (body.strain <= kThreshold) return;
+  const Eigen::Vector3d kept =
+      (1 + (ratio.array() - kThreshold).max(0)).inverse().matrix();  // I / raised I
+  const MatrixMaker of_axes(axes);
+  body.inv_inertia = of_axes.Make(inv_moments.cwiseProduct(kept));
+  const Matrix3 response = of_axes.Make(kept);
+  const Eigen::Matrix3d damping = kDamping * (Eigen::Matrix3d::Identity() - View(response));
+  raised_.push_back({strained.body, damping, response});
 }
 
 void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
@@ -175,7 +233,12 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
   const size_t bodies = problem.bodies.size();
   pull_.assign(bodies, 0);
   known_.assign(bodies, nullptr);
+  for (size_t i = 0; i < bodies && !memories_.empty(); ++i) {
+    known_[i] = Find(problem.bodies[i], static_cast<int>(i));
+  }
+  const auto asks = [this](int body) { return body != kWorld && known_[body] == nullptr; };
   for (const Joint& joint : problem.joints) {
+    if (!asks(joint.body_a) && !asks(joint.body_b)) continue;
     // no triple of its rows without bounds has a longer arm or a larger impulse
     double arm_a = 0, arm_b = 0, impulse = 0;
     for (int i = 0; i < joint.rows; ++i) {
@@ -193,12 +256,13 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
     if (joint.body_b != kWorld) pull_[joint.body_b] += impulse * arm_b / 2;
   }
   for (size_t i = 0; i < bodies; ++i) {
-    if (!memories_.empty()) known_[i] = Find(problem.bodies[i], static_cast<int>(i));
-    if (pull_[i] == 0 && known_[i] == nullptr) continue;
-    // Most() of a sum of |f| |r| is at most six times that
-    const double ratio = time_step * 6 * pull_[i] * View(problem.bodies[i].inv_inertia).trace();
-    // not a number: looked at
-    pull_[i] = known_[i] != nullptr || !(ratio < kRemember) ? 1 : 0;
+    if (known_[i] != nullptr) {
+      pull_[i] = 1;
+    } else if (pull_[i] != 0) {
+      // Most() of a sum of |f| |r| is at most six times that; not a number: looked at
+      const double ratio = time_step * 6 * pull_[i] * View(problem.bodies[i].inv_inertia).trace();
+      pull_[i] = ratio < kRemember ? 0 : 1;
+    }
   }
 }
 

@@ -85,6 +85,7 @@ void StepOdds::EndFrame(int stepped_bodies) {
   ++age_;
   ++trial_age_;
   stepped_bodies_ = stepped_bodies;
+  frames_without_ = stepped() ? 0 : std::min(kLate, frames_without_ + 1);
   if (stepped()) return;
   if (stale()) age_ = 0;
   first_.cut += kFade * (expected_ - first_.cut);

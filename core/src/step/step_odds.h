@@ -30,6 +30,8 @@ class StepOdds {
   bool pays() const { return pays_; }
   /// There was one in the last frame.
   bool stepped() const { return stepped_bodies_ > 0; }
+  /// There was one in the last second or so.
+  bool stepped_of_late() const { return frames_without_ < kLate; }
   /// Likewise, of an island of not many fewer bodies: others may have been left to sweeps before
   /// they joined it.
   bool stepped_most(int bodies) const {
@@ -66,9 +68,11 @@ class StepOdds {
 
   static constexpr double kCarries = 2;
 
+  static constexpr int kLate = 60;
+
   bool carries_ = false;
   bool pays_ = true;
-  int stepped_bodies_ = 0;
+  int stepped_bodies_ = 0, frames_without_ = kLate;
   /// Logarithm of the gain of steps over that of the sweeps in their place: mean that forgets.
   double ratio_ = 0;
   int trials_ = 0;                       ///< that it is of

@@ -90,6 +90,17 @@ TEST(StepOdds, KnowWhetherMostBodiesWereStepped) {
   EXPECT_FALSE(odds.stepped());
 }
 
+// A bridge whose step was undone once pays as much for the next one.
+TEST(StepOdds, KnowForASecondThatThereWasAStep) {
+  StepOdds odds;
+  EXPECT_FALSE(odds.stepped_of_late());
+  odds.EndFrame(11);
+  for (int frame = 0; frame < 59; ++frame) odds.EndFrame(0);
+  EXPECT_TRUE(odds.stepped_of_late());
+  odds.EndFrame(0);
+  EXPECT_FALSE(odds.stepped_of_late());
+}
+
 TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
   StepOdds odds;
   EXPECT_TRUE(odds.pays());

@@ -64,7 +64,16 @@ class GeometricStiffness {
     double inv_inertia = 0;  ///< sum of its inverse moments, not lowered
     bool seen = false;
   };
+  /// A body that may be above the threshold, and what is remembered of it.
+  struct Strained {
+    int body;
+    Memory* memory;
+  };
 
+  /// Writes strained_, and Body::strain of all.
+  void FindStrained(double time_step, std::span<Body> bodies);
+  void Raise(double time_step, const Strained& strained, const Vector3& inv_moments,
+             const Matrix3& axes, std::span<Body> bodies);
   void FindAnchored(const ContactProblem& problem, const Report& report);
   void Add(int body, const Vector3& arm, const Vector3& impulse, double time_step);
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
@@ -84,6 +93,7 @@ class GeometricStiffness {
   std::vector<int> by_key_;            ///< memories_ by key, ascending; empty until asked for
   std::vector<Memory*> known_;         ///< by body: what is remembered of it, while that is learnt
   std::vector<Memory> fresh_;          ///< those that are new
+  std::vector<Strained> strained_;
   std::vector<Raised> raised_;
   std::vector<char> stepped_;       ///< by body: a subspace step was kept on its island
   std::vector<char> anchored_;      ///< by island: something of it touches what does not move
