@@ -94,11 +94,14 @@ inline void FindPrincipalAxes(PrincipalAxes* lanes) {
     Order(d, &x, &y);
     Order(d, &y, &z);
     Order(d, &x, &y);
+    // how often a lane was looked at in vain shows in signs of zeros alone: none is negative then
+    const auto put = [&](V numbers, double* to)
+                         HWY_ATTR { hn::Store(hn::Add(numbers, zero), d, to + l); };
     const auto write = [&](int k, const Column<V>& column) HWY_ATTR {
-      hn::Store(column.moment, d, lanes->moment[k] + l);
-      hn::Store(column.x, d, lanes->axis[3 * k] + l);
-      hn::Store(column.y, d, lanes->axis[3 * k + 1] + l);
-      hn::Store(column.z, d, lanes->axis[3 * k + 2] + l);
+      put(column.moment, lanes->moment[k]);
+      put(column.x, lanes->axis[3 * k]);
+      put(column.y, lanes->axis[3 * k + 1]);
+      put(column.z, lanes->axis[3 * k + 2]);
     };
     write(0, x);
     write(1, y);

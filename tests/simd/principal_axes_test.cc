@@ -117,5 +117,20 @@ TEST(PrincipalAxes, OfALaneDoNotDependOnTheOthers) {
   }
 }
 
+// Rounds that other lanes need add zeros to what is done, so that a negative one might or might not
+// stay.
+TEST(PrincipalAxes, HaveNoNegativeZeros) {
+  const double zero = -0.0;
+  const Matrix3d locked = (Matrix3d() << zero, 0, 0, 0, 1, zero, 0, zero, 2).finished();
+  for (const Target target : SupportedTargets()) {
+    PrincipalAxes lanes;
+    for (int l = 0; l < kLanes; ++l) Put(locked, l, &lanes);
+    PrincipalAxesKernelFor(target)(&lanes);
+    EXPECT_EQ(Moments(lanes, 2), Vector3d(0, 1, 2));
+    for (const auto& moment : lanes.moment) EXPECT_FALSE(std::signbit(moment[2]));
+    for (const auto& axis : lanes.axis) EXPECT_FALSE(std::signbit(axis[2])) << TargetName(target);
+  }
+}
+
 }  // namespace
 }  // namespace cairn::simd
