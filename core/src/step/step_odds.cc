@@ -85,8 +85,8 @@ void StepOdds::EndFrame(int stepped_bodies) {
   ++age_;
   ++trial_age_;
   stepped_bodies_ = stepped_bodies;
-  frames_without_ = stepped() ? 0 : std::min(kLate, frames_without_ + 1);
-  if (stepped()) return;
+  frames_without_ = stepped_bodies > 0 ? 0 : std::min(kLate, frames_without_ + 1);
+  if (stepped_bodies > 0) return;
   if (stale()) age_ = 0;
   first_.cut += kFade * (expected_ - first_.cut);
   later_.cut += kFade * (kLater * expected_ - later_.cut);

@@ -28,12 +28,10 @@ class StepOdds {
   /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }
-  /// There was one in the last frame.
-  bool stepped() const { return stepped_bodies_ > 0; }
-  /// There was one in the last second or so.
+  /// There was one in the last kLate frames.
   bool stepped_of_late() const { return frames_without_ < kLate; }
-  /// Likewise, of an island of not many fewer bodies: others may have been left to sweeps before
-  /// they joined it.
+  /// There was one in the last frame, of an island of not many fewer bodies: others may have been
+  /// left to sweeps before they joined it.
   bool stepped_most(int bodies) const {
     return 4 * static_cast<std::int64_t>(bodies) <= 5 * static_cast<std::int64_t>(stepped_bodies_);
   }
