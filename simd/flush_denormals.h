@@ -14,34 +14,40 @@ namespace cairn::simd {
 
 /// While it lives, numbers too small for a normal float count as zero: impulses that decay towards
 /// zero would otherwise slow a sweep down by up to a hundred times. Every kernel has one, so that
-/// the mode of the calling thread changes no bits.
+/// the mode of the calling thread changes no bits. To write the mode takes as long as some rows of
+/// a sweep: inside another one it is left as it is.
 ///
 /// One case is left to the CPU: what is below the smallest normal float before it is rounded, and
 /// that float after, is this float on x86, and zero on ARM. No test has met it.
 class FlushDenormals {
  public:
+#if CAIRN_FLOAT_MODE_SSE || CAIRN_FLOAT_MODE_ARM
+  FlushDenormals() : before_(Mode()) {
+    if ((before_ & kFlush) != kFlush) SetMode(before_ | kFlush);
+  }
+  ~FlushDenormals() {
+    if ((before_ & kFlush) != kFlush) SetMode(before_);
+  }
+
+ private:
 #if CAIRN_FLOAT_MODE_SSE
-  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | kFlushAndTreatAsZero); }
-  ~FlushDenormals() { _mm_setcsr(before_); }
-
- private:
-  static constexpr unsigned kFlushAndTreatAsZero = 0x8040;
-  unsigned before_;
-#elif CAIRN_FLOAT_MODE_ARM
-  FlushDenormals() : before_(Mode()) { SetMode(before_ | kFlush); }
-  ~FlushDenormals() { SetMode(before_); }
-
- private:
+  using Word = unsigned;
+  static Word Mode() { return _mm_getcsr(); }
+  static void SetMode(Word mode) { _mm_setcsr(mode); }
+  static constexpr Word kFlush = 0x8040;  // results, and what is read
+#else
   /// FPCR, the register that says how numbers are rounded and flushed.
-  static std::uint64_t Mode() {
-    std::uint64_t mode;
+  using Word = std::uint64_t;
+  static Word Mode() {
+    Word mode;
     asm volatile("mrs %0, fpcr" : "=r"(mode));
     return mode;
   }
   // nothing that memory holds is computed on the wrong side of it
-  static void SetMode(std::uint64_t mode) { asm volatile("msr fpcr, %0" : : "r"(mode) : "memory"); }
-  static constexpr std::uint64_t kFlush = std::uint64_t{1} << 24;
-  std::uint64_t before_;
+  static void SetMode(Word mode) { asm volatile("msr fpcr, %0" : : "r"(mode) : "memory"); }
+  static constexpr Word kFlush = Word{1} << 24;
+#endif
+  Word before_;
 #else
   FlushDenormals() {}
 #endif

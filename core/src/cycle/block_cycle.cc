@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 
 #include "cairn/detail/spans.h"
+#include "simd/flush_denormals.h"
 #include "sweep/settle_friction.h"
 
 namespace cairn {
@@ -153,6 +155,9 @@ bool BlockCycle::Sweep(int count) {
     if (whole) islands_.See(islands_.groups(), sweeps_);
     return whole;
   }
+  // one for all kernels; threads and clocks of others do not get to see it
+  std::optional<simd::FlushDenormals> flush;
+  if (sweeps_->InOneGo()) flush.emplace();
   for (bool whole = true; count > 0; --count) {
     if (MoveOn()) {
       sweeps_->SweepWhole(islands_.groups());

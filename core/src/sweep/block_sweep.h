@@ -26,6 +26,10 @@ class BlockSweeps {
   BlockSweeps(BlockFrame* frame, const Settings& settings, BudgetMeter* meter, Crew* crew)
       : frame_(frame), settings_(settings), meter_(meter), crew_(crew) {}
 
+  /// Whether all groups can be gone over one after the other: nobody shares the work, and nobody
+  /// looks at the budget in between.
+  bool InOneGo() const;
+
   /// Makes @p count sweeps, the last one measured (BlockFrame::errors()). False if the budget ended
   /// first: what is done stays, a valid state, and complete sweeps count.
   bool Sweep(int count, std::span<GroupSweeps> groups);
@@ -53,9 +57,6 @@ class BlockSweeps {
     int count;
     simd::PairKernels::Kernel others, last;
   };
-  /// Whether all groups can be gone over one after the other: nobody shares the work, and nobody
-  /// looks at the budget in between.
-  bool InOneGo() const;
   /// Over each active group so often before the next one: it stays in the cache.
   void GoOver(std::span<const GroupSweeps> groups, const Kernels& kernels);
   void SweepInOneGo(int count, std::span<GroupSweeps> groups);
