@@ -371,7 +371,9 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   } else {
     SolveInParts(problem, impulses, velocities, report);
   }
-  if (report->ok()) quiet.Tell(problem, velocities, settings.tuning.quiet_speed, report);
+  if (!report->ok()) return;
+  const auto means = in_parts ? substeps.means() : std::span<const Velocity>();
+  quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, report);
 }
 
 void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& impulses,

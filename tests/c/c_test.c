@@ -148,6 +148,10 @@ static void NamesBadSettings(void) {
   CHECK(cairnSetSettings(solver, &settings) == cairnBadSettings);
   settings.threads = 2;
   CHECK(cairnSetSettings(solver, &settings) == cairnOk);
+  settings.budgetKind = (CairnBudgetKind)7;
+  CHECK(cairnSetSettings(solver, &settings) == cairnBadSettings);
+  cairnDescribeSettings(&settings, text, sizeof text);
+  CHECK(strcmp(text, "budgetKind is 7, must be one of CairnBudgetKind") == 0);
   cairnDestroySolver(solver);
 }
 
@@ -185,6 +189,15 @@ static void RefusesBadProblems(void) {
   MakeScene(&scene);
   scene.joint.bodyA = 7;
   Refused(solver, &scene, cairnNoSuchBody, "joint 0");
+  /* with the status of the step before, and nothing of its report */
+  MakeScene(&scene);
+  scene.manifold.firstPoint = 1;
+  Refused(solver, &scene, cairnWrongSize, "manifold 0");
+  MakeScene(&scene);
+  scene.problem.jointCount = -1;
+  Refused(solver, &scene, cairnWrongSize, "do not fit");
+  int32_t count = 7;
+  CHECK(cairnIslandOf(solver, &count) == NULL && count == 0);
   MakeScene(&scene);
   scene.problem.bodyCount = 0;
   Refused(solver, &scene, cairnEmptyProblem, "no bodies");

@@ -26,7 +26,8 @@ struct CairnSolver : detail::Placed {
   Array<Body> bodies;
   Array<Velocity> velocities;
   Report report;
-  CairnStatus last = cairnOk;  ///< what came of the last step; report may be of an earlier one
+  CairnStatus last = cairnOk;         ///< what came of the last step
+  bool reported = true;               ///< report is of that step: it got as far as Solve()
   std::optional<Recording> recorded;  ///< one that is solved, with its start
 };
 
@@ -59,8 +60,17 @@ detail::Heap::Owner HeapOf(const CairnMemory& memory) {
   return detail::Heap::Owner(detail::MemorySource{memory.allocate, memory.free, memory.context});
 }
 
+/// Those that have no counterpart in C++, too.
+BadSetting FindBad(const CairnSettings& settings) {
+  const int kind = static_cast<int>(settings.budgetKind);
+  if (kind < cairnUnlimited || kind > cairnWork) {
+    return {"budgetKind", static_cast<double>(kind), "one of CairnBudgetKind"};
+  }
+  return FindBadSetting(c::ToSettings(settings));
+}
+
 CairnStatus Accept(const CairnSettings& settings, CairnSolver* solver) {
-  if (FindBadSetting(c::ToSettings(settings)).name != nullptr) return cairnBadSettings;
+  if (FindBad(settings).name != nullptr) return cairnBadSettings;
   solver->jobs.reset();
   if (settings.jobs.submit != nullptr) solver->jobs.emplace(settings.jobs);
   solver->solver.settings() = c::ToSettings(settings);
@@ -72,6 +82,7 @@ CairnStatus Accept(const CairnSettings& settings, CairnSolver* solver) {
 CairnStatus Run(const c::View& view, CairnSolver* solver, CairnReport* report) {
   solver->velocities.resize(view.problem.bodies.size());
   solver->solver.Solve(view.problem, view.impulses, solver->velocities, &solver->report);
+  solver->reported = true;
   if (report != nullptr) *report = c::ToReport(solver->report);
   return c::ToStatus(solver->report.status);
 }
@@ -161,7 +172,7 @@ size_t cairnDescribeSettings(const CairnSettings* settings, char* text, size_t s
   std::string said = cairnDescribe(cairnNullPointer);
   const CairnStatus status = c::Guarded([&] {
     if (settings == nullptr) return cairnNullPointer;
-    const BadSetting bad = FindBadSetting(c::ToSettings(*settings));
+    const BadSetting bad = FindBad(*settings);
     said = bad.name == nullptr ? "" : Describe(bad);
     return cairnOk;
   });
@@ -207,6 +218,7 @@ CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
   if (solver == nullptr || problem == nullptr || solution == nullptr) {
     return Refuse(cairnNullPointer, report);
   }
+  solver->reported = false;
   const CairnStatus status = c::Guarded([&] {
     c::View view;
     const CairnStatus looked = c::Look(*problem, *solution, &solver->bodies, &view);
@@ -230,8 +242,7 @@ size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
   std::string said;
   const CairnStatus status = c::Guarded([&] {
     if (solver == nullptr) return cairnNullPointer;
-    const bool of_last = c::ToStatus(solver->report.status) == solver->last;
-    said = of_last ? Describe(solver->report) : cairnDescribe(solver->last);
+    said = solver->reported ? Describe(solver->report) : cairnDescribe(solver->last);
     return cairnOk;
   });
   return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
@@ -240,13 +251,14 @@ size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
 CairnStatus cairnGetIsland(const CairnSolver* solver, int32_t index, CairnIsland* island) {
   if (solver == nullptr || island == nullptr) return cairnNullPointer;
   const Array<IslandReport>& islands = solver->report.islands;
-  if (index < 0 || static_cast<size_t>(index) >= islands.size()) return cairnWrongSize;
+  if (!solver->reported || index < 0 || static_cast<size_t>(index) >= islands.size())
+    return cairnWrongSize;
   *island = c::ToIsland(islands[index]);
   return cairnOk;
 }
 
 const int32_t* cairnIslandOf(const CairnSolver* solver, int32_t* count) {
-  const bool known = solver != nullptr && !solver->report.island_of.empty();
+  const bool known = solver != nullptr && solver->reported && !solver->report.island_of.empty();
   if (count != nullptr) *count = known ? static_cast<int32_t>(solver->report.island_of.size()) : 0;
   return known ? solver->report.island_of.data() : nullptr;
 }
@@ -311,6 +323,7 @@ int32_t cairnRecordingBodies(const CairnRecording* recording) {
 CairnStatus cairnSolveRecording(CairnSolver* solver, const CairnRecording* recording,
                                 CairnVelocity* velocities, CairnReport* report) {
   if (solver == nullptr || recording == nullptr) return Refuse(cairnNullPointer, report);
+  solver->reported = false;
   const CairnStatus status = c::Guarded([&] {
     solver->recorded = recording->recording;
     Recording& copy = *solver->recorded;

@@ -14,6 +14,7 @@ namespace cairn {
 struct StepInput {
   std::span<const Body> bodies = {};  ///< Those of ContactProblem, as they will be solved.
   double time_step = 1 / 60.0;        ///< h [s], > 0
+  int substeps = 1;                   ///< Settings::substeps: bounces are counted by them.
 };
 
 /// How contacts are to behave, in the words of engines.
@@ -69,7 +70,8 @@ struct PositionError {
 ///   bounce, -v0 >= min_bounce, gap closes in this step: at least
 ///     b = sqrt(2 (e^2 E - g' gap)) - g' h / 2,   E = (v0 - g' h / 2)^2 / 2 + g' gap,
 /// with g' how fast external impulses press the point together [m/s^2]. Steps v += -g' h, x += h v
-/// keep E, so that the height after a bounce is e^2 times that before, at any time step.
+/// keep E, so that the height after a bounce is e^2 times that before, at any time step. With
+/// substeps E is that of their steps.
 class Contacts {
  public:
   Contacts() = default;

@@ -22,8 +22,10 @@ struct JointAxis {
   double max_spring_force = kInfinity;     ///< Its largest force, > 0.
 };
 
-/// All ways: the point of a along the axes of b, the twist about their x axes, in (-pi, pi], and
-/// the angle between these, at most cone [rad]; 0: they stay parallel, pi and more: free.
+/// All ways: the point of a along the axes of b, the twist about their x axes, and the angle
+/// between these, at most cone [rad]; 0: they stay parallel, pi and more: free. A twist is known
+/// but for whole turns: the one within pi of the middle of its limits counts, or of the spring's
+/// rest.
 struct JointKind {
   JointAxis linear[3];
   JointAxis twist;

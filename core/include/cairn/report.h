@@ -60,8 +60,8 @@ struct [[nodiscard]] Report {
   StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
                                               ///< any island before a sweep limit before the rest.
   std::int64_t work = 0;                      ///< Work units spent; see Budget::Work.
-  Replay replay;                              ///< With Budget::Time and one substep.
-  std::chrono::nanoseconds elapsed{0};        ///< Wall clock of the Solve(), whatever the budget.
+  Replay replay;                        ///< With Budget::Time, one substep and no Settings::relax.
+  std::chrono::nanoseconds elapsed{0};  ///< Wall clock of the Solve(), whatever the budget.
   /// What subspace steps were predicted to take, with the factorisations that they made, and what
   /// they took, without the sweeps around them: with Budget::Time, else 0.
   std::chrono::nanoseconds step_predicted{0}, step_time{0};

@@ -30,7 +30,7 @@ void QuietBodies::Reserve(std::size_t bodies) {
 }
 
 void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
-                       double speed, Report* report) {
+                       std::span<const Velocity> means, double speed, Report* report) {
   for (IslandReport& island : report->islands) {
     // one of rows that push nothing has no body to be quiet
     island.quiet = island.bodies > 0 ? kMost : 0;
@@ -43,7 +43,11 @@ void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> 
     if (at < 0) continue;
     IslandReport& island = report->islands[at];
     const Velocity end = EndOf(problem, velocities, i);
-    const double linear = View(end.linear).squaredNorm(), angular = View(end.angular).squaredNorm();
+    const bool moves_on = !means.empty() && problem.motions.empty();
+    const Velocity& mean = moves_on ? means[i] : end;
+    const double linear = std::max(View(end.linear).squaredNorm(), View(mean.linear).squaredNorm());
+    const double angular =
+        std::max(View(end.angular).squaredNorm(), View(mean.angular).squaredNorm());
     const bool is_quiet = linear < speed * speed && angular < speed * speed;
     count.solves = is_quiet ? std::min(count.solves + 1, kMost) : 0;
     // squares until all are seen

@@ -17,11 +17,12 @@ class QuietBodies {
  public:
   /// Makes room for so many bodies: Tell() allocates nothing.
   void Reserve(std::size_t bodies);
+  /// @param means  that bodies move by, where those are others, which are to be quiet, too; or none
   /// @param speed  Tuning::quiet_speed
   /// @pre room is reserved, the report is that of the problem, solved; velocities are those that it
   /// ends with
-  void Tell(const ContactProblem& problem, std::span<const Velocity> velocities, double speed,
-            Report* report);
+  void Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
+            std::span<const Velocity> means, double speed, Report* report);
   void Forget() { counts_.clear(); }
 
  private:

@@ -17,8 +17,10 @@ using Eigen::Vector3d;
 constexpr double kGain = 0.2;
 /// Targets that floats hold.
 constexpr double kMostTarget = 1e30;
-/// Half an angle that a body turns by in a part at most [rad].
+/// Half an angle whose sine is found at once [rad]; a larger turn is that of half of it, twice.
 constexpr double kMostHalfTurn = 1;
+/// What is faster turns by nobody knows what.
+constexpr int kMostDoublings = 40;
 
 Vector3d ToVector(const float* from) { return {from[0], from[1], from[2]}; }
 Vector3d ToVector(const Vector3d& from) { return from; }
@@ -197,18 +199,21 @@ void Substeps::Advance() {
 }
 
 void Substeps::Turn(const Vector3d& spin, Way* way) const {
-  const Vector3d half = 0.5 * share() * whole_.time_step * spin;
-  const double length2 = half.squaredNorm();
-  if (!(length2 > 0)) return;
-  const double most = kMostHalfTurn * kMostHalfTurn;
-  const Vector3d turn =
-      length2 > most ? Vector3d(half * (kMostHalfTurn / std::sqrt(length2))) : half;
-  const double a2 = std::min(length2, most);
+  Vector3d half = 0.5 * share() * whole_.time_step * spin;
+  int doublings = 0;
+  for (; half.squaredNorm() > kMostHalfTurn * kMostHalfTurn && doublings < kMostDoublings;
+       ++doublings) {
+    half *= 0.5;
+  }
+  const double a2 = half.squaredNorm();
+  if (!(a2 > 0 && a2 <= kMostHalfTurn * kMostHalfTurn)) return;
   // sine over angle, and cosine: no library is to decide their last bits
   const double sine = 1 - a2 / 6 * (1 - a2 / 20 * (1 - a2 / 42 * (1 - a2 / 72 * (1 - a2 / 110))));
   const double cosine = 1 - a2 / 2 * (1 - a2 / 12 * (1 - a2 / 30 * (1 - a2 / 56 * (1 - a2 / 90))));
-  const Vector3d v = sine * turn;
-  way->turn = Eigen::Quaterniond(cosine, v.x(), v.y(), v.z()) * way->turn;
+  const Vector3d v = sine * half;
+  Eigen::Quaterniond turn(cosine, v.x(), v.y(), v.z());
+  for (int i = 0; i < doublings; ++i) turn = (turn * turn).normalized();
+  way->turn = turn * way->turn;
   way->turn.normalize();
   way->turned = way->turn.toRotationMatrix();
 }
@@ -288,6 +293,8 @@ void Substeps::Add() {
   }
 }
 
+/// @p way: that the row came, and what its compliance gave way by: a soft row is not behind where
+/// it yields.
 double Substeps::AimBoth(double target, double way) const {
   const double behind = target * part_ * share() - way;
   return target + kGain * parts_ * behind;
@@ -331,7 +338,7 @@ void Substeps::AimRows() {
     const double target = whole.target + seen;
     double aim = target;
     if (row.parent == kNoRow && !(IsBoundedBelow(row.lo) && IsBoundedAbove(row.hi))) {
-      const double way = along(&Way::way);
+      const double way = along(&Way::way) + whole.compliance * rows_sum_[i];
       aim = !IsBoundedBelow(row.lo) && !IsBoundedAbove(row.hi) ? AimBoth(target, way)
             : IsBoundedBelow(row.lo)                           ? AimOne(target, way)
                                                                : -AimOne(-target, -way);
@@ -370,7 +377,8 @@ void Substeps::AimJoints() {
       const bool above = bounded && IsBoundedAbove(row.hi);
       double aim = target;
       if (!(below && above)) {
-        const double way = along(&Way::way);
+        const double way =
+            along(&Way::way) + static_cast<double>(whole.compliance) * joints_sum_[at];
         aim = !below && !above ? AimBoth(target, way)
               : below          ? AimOne(target, way)
                                : -AimOne(-target, -way);
@@ -416,7 +424,8 @@ void Substeps::AimHeld(const Held& held) {
     }
     if (joint.body_a != kWorld) Put(arm_a.cross(a), row.angular_a);
     if (joint.body_b != kWorld) Put(arm_b.cross(b), row.angular_b);
-    row.target = ToFloat(AimBoth(target, a.dot(moved_a) + b.dot(moved_b)) - rest);
+    const double yielded = static_cast<double>(whole.compliance) * joints_sum_[first + k];
+    row.target = ToFloat(AimBoth(target, a.dot(moved_a) + b.dot(moved_b) + yielded) - rest);
   }
 }
 
@@ -433,7 +442,8 @@ void Substeps::AimPoints() {
       const auto apart = [&](Velocity Way::*what) {
         return Apart(whole, of(manifold.body_a, what), of(manifold.body_b, what));
       };
-      double aim = AimOne(whole.bias, apart(&Way::way));
+      const double yielded = static_cast<double>(whole.compliance) * points_sum_[at].normal;
+      double aim = AimOne(whole.bias, apart(&Way::way) + yielded);
       point.compliance = static_cast<float>(whole.compliance * parts_);
       point.restitution = 0;
       if (whole.restitution > 0) {

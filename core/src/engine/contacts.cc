@@ -26,18 +26,28 @@ struct Approach {
   double mobility;  ///< J M^-1 J' [1/kg]
 };
 
-/// Speed to leave with, so that the energy E of contacts.h is e^2 times that before.
-double BounceSpeed(double restitution, const Approach& approach, double gap, double h) {
+/// A step, and the parts it is made in.
+struct Steps {
+  double h;
+  int parts;
+};
+
+/// Speed to leave with, so that the energy E of contacts.h is e^2 times that before. The body keeps
+/// it to the end of the step, part by part.
+double BounceSpeed(double restitution, const Approach& approach, double gap, const Steps& steps) {
   const double pressed = std::max(0.0, approach.start - approach.free);  // g' h
-  const double fall = pressed / h;
-  const double before = approach.start - pressed / 2;
+  const double fall = pressed / steps.h, of_part = pressed / steps.parts;
+  const double before = approach.start - of_part / 2;
   const double energy = std::max(0.0, before * before / 2 + fall * gap);
   const double after = restitution * restitution * energy - fall * gap;
-  return std::sqrt(2 * std::max(0.0, after)) - pressed / 2;
+  const double way = pressed - of_part / 2;  // pressed / 2 of one part
+  const double more = steps.parts == 1 ? 0 : way * way - of_part * of_part / 4;
+  return std::sqrt(2 * std::max(0.0, after) + more) - way;
 }
 
 Normal NormalOf(const ContactOptions& options, double restitution, const Approach& approach,
-                double depth, double h) {
+                double depth, const Steps& steps) {
+  const double h = steps.h;
   Normal row{.bias = depth / h, .compliance = 0, .is_speed = false};
   if (depth >= 0) {
     const double frequency = std::min(options.frequency, 0.25 / h);
@@ -51,7 +61,7 @@ Normal NormalOf(const ContactOptions& options, double restitution, const Approac
   const bool bounces = restitution > 0 && -approach.start >= options.min_bounce &&
                        -approach.start > 0 && h * approach.free <= depth;
   if (!bounces) return row;
-  const double bounce = BounceSpeed(restitution, approach, -depth, h);
+  const double bounce = BounceSpeed(restitution, approach, -depth, steps);
   return {.bias = std::max(row.bias, bounce), .compliance = 0, .is_speed = true};
 }
 
@@ -117,7 +127,8 @@ void Contacts::AddPoint(const Touch& touch, const TouchPoint& from, Manifold* ma
       .free =
           Along(a, FreeVelocity(step_, touch.body_a)) + Along(b, FreeVelocity(step_, touch.body_b)),
       .mobility = Mobility(step_, touch.body_a, a) + Mobility(step_, touch.body_b, b)};
-  const Normal row = NormalOf(options_, touch.restitution, approach, from.depth, step_.time_step);
+  const Normal row = NormalOf(options_, touch.restitution, approach, from.depth,
+                              {step_.time_step, std::max(1, step_.substeps)});
   if (from.depth > deepest_.largest) {
     deepest_ = {from.depth, std::clamp(row.bias * step_.time_step, 0.0, from.depth)};
   }

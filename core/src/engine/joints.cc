@@ -33,6 +33,15 @@ Twist FindTwist(const JointSide& a, const JointSide& b) {
   return {.angle = WrapAngle(2 * ArcTan2(turn.x(), turn.w())), .axis = axis};
 }
 
+/// An angle in (-pi, pi], or the same some turns away: the one within half a turn of the middle of
+/// the limits, or of where the spring wants to be.
+double Unwrap(const JointAxis& axis, double angle) {
+  const double width = axis.hi - axis.lo;
+  const double centre = width < 2 * kPi ? axis.lo + width / 2 : axis.rest;
+  const double off = angle - centre;
+  return std::abs(off) <= kPi ? angle : centre + std::remainder(off, 2 * kPi);
+}
+
 }  // namespace
 
 /// The rows of one axis, as vectors of body a; those of b are opposite but for the arm.
@@ -102,7 +111,7 @@ int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, s
   AddAxis(
       kind.twist,
       {.a = {Vector3d::Zero(), twist.axis}, .b = {Vector3d::Zero(), -twist.axis}, .turns = true},
-      twist.angle);
+      Unwrap(kind.twist, twist.angle));
   return Close(id);
 }
 

@@ -101,8 +101,8 @@ void Recorder::End(const Settings& settings, const Report& report) {
   recording_.settings.executor = nullptr;
   recording_.settings.tuning.clock = nullptr;
   recording_.replay.reset();
-  if (settings.budget.kind() == Budget::Kind::kTime && settings.substeps == 1)
-    recording_.replay = report.replay;
+  const bool at_once = settings.substeps == 1 && !settings.relax;
+  if (settings.budget.kind() == Budget::Kind::kTime && at_once) recording_.replay = report.replay;
 
   std::string path = next_path_;
   if (path.empty()) {

@@ -36,8 +36,9 @@ TouchPoint Lowest(const SmallWorld& world, int body) {
 }
 
 /// The highest that a ball gets after its first bounce, above where it lies [m].
-double BounceHeight(double restitution, double drop, double rate) {
+double BounceHeight(double restitution, double drop, double rate, int substeps = 1) {
   SmallWorld world;
+  world.solver.settings().substeps = substeps;
   world.h = 1 / rate;
   world.things.push_back({.position = {0, kRadius + drop, 0}, .inertia = 0.004});
   bool bounced = false;
@@ -72,6 +73,17 @@ TEST(Contacts, BounceToTheSquareOfRestitutionTimesTheHeight) {
   }
   // none, but for depth that is taken back
   EXPECT_LE(BounceHeight(0, 2, 60), 1e-3);
+}
+
+TEST(Contacts, BounceAsHighWithSubsteps) {
+  for (const int substeps : {2, 4, 8}) {
+    for (const double restitution : {0.5, 1.0}) {
+      const double expected = restitution * restitution * 2;
+      EXPECT_NEAR(BounceHeight(restitution, 2, 60, substeps), expected,
+                  0.01 * expected + 9.81 / 3600 / 8)
+          << restitution << ", " << substeps << " substeps";
+    }
+  }
 }
 
 /// The bias of a point of that depth of a body at rest without gravity.

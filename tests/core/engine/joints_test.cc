@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "cairn/detail/eigen.h"
@@ -192,6 +193,65 @@ TEST(Joints, SpringIsNoStrongerThanItsMost) {
 TEST(Joints, ServoTurnsToItsTarget) {
   const SmallWorld world = Drive(HingeJoint({.rest = 2.5, .frequency = 2}), {0, 0, 0}, 180);
   EXPECT_NEAR(AngleAboutX(world.things[0]), 2.5, 1e-3);
+}
+
+TEST(Joints, LimitsHoldAtHalfATurnAndBeyond) {
+  for (const auto& [lo, hi, speed, start] : {std::tuple(0.0, kPi, 1.0, 0.0),
+                                             {0.0, kPi, 8.0, 0.0},
+                                             {-kPi, 0.0, -1.0, 0.0},
+                                             {kPi / 2, 3 * kPi / 2, 2.0, 2.0}}) {
+    SmallWorld world;
+    world.gravity = 0;
+    world.things.push_back({.mass = 2, .position = Vector3d::Zero()});
+    world.things[0].turn = Eigen::AngleAxisd(start, Vector3d::UnitX());
+    const JointAxis about{.lo = lo, .hi = hi, .speed = speed, .max_motor_force = 50};
+    double turned = start;  // whole turns count
+    for (int i = 0; i < 300; ++i) {
+      world.Step([&](SmallWorld* w) { Hold(HingeJoint(about), Vector3d::Zero(), w); });
+      turned += world.h * world.things[0].velocity.angular.x();
+    }
+    const double wanted = speed < 0 ? lo : hi;
+    EXPECT_NEAR(turned, wanted, 1e-3) << lo << " to " << hi << " from " << start;
+    EXPECT_LE(View(world.things[0].velocity.angular).norm(), 1e-3);
+  }
+}
+
+TEST(Joints, SpringsTurnTheShortWay) {
+  for (const auto& [rest, start, end] :
+       {std::tuple(kPi, 3.0, kPi), {3.0, -3.0, 3.0 - 2 * kPi}, {-3.0, 3.0, 2 * kPi - 3.0}}) {
+    SmallWorld world;
+    world.gravity = 0;
+    world.things.push_back({.mass = 2, .position = Vector3d::Zero()});
+    world.things[0].turn = Eigen::AngleAxisd(start, Vector3d::UnitX());
+    double turned = start;
+    for (int i = 0; i < 300; ++i) {
+      world.Step([&](SmallWorld* w) {
+        Hold(HingeJoint({.rest = rest, .frequency = 2}), Vector3d::Zero(), w);
+      });
+      turned += world.h * world.things[0].velocity.angular.x();
+    }
+    EXPECT_NEAR(turned, end, 5e-3) << rest << " from " << start;
+  }
+}
+
+TEST(Joints, SpringsAreAsStiffWithSubsteps) {
+  const double omega = 2 * kPi * 2, sag = 9.81 / (omega * omega);
+  JointKind spring;
+  spring.linear[1] = {.frequency = 2};
+  for (const int substeps : {1, 2, 4, 16}) {
+    SmallWorld world;
+    world.solver.settings().substeps = substeps;
+    world.things = {{.mass = 2, .position = {0, 0, 0}}, {.mass = 2, .position = {5, -3, 0}}};
+    for (int i = 0; i < 240; ++i) {
+      world.Step([&](SmallWorld* w) {
+        Hold(spring, Vector3d::Zero(), w);
+        const JointSide bob = w->things[1].Side(1, Vector3d::Zero());
+        w->joints.AddDistance({.rest = 3, .frequency = 2}, bob, {.anchor = Vector3d(5, 0, 0)}, 2);
+      });
+    }
+    EXPECT_NEAR(world.things[0].position.y(), -sag, 1e-4) << substeps << " substeps";
+    EXPECT_NEAR(world.things[1].position.y(), -3 - sag, 1e-4) << substeps << " substeps";
+  }
 }
 
 TEST(Joints, ConeStopsASwing) {

@@ -376,6 +376,17 @@ TEST(Relax, DoesSoInEachOfSubsteps) {
   EXPECT_NEAR(world.things[0].velocity.linear.y(), 0, 1e-4);
 }
 
+// 5 mm a step are 0.3 m/s, though the body keeps no velocity: it is not to fall asleep on the way.
+TEST(Relax, WhatIsMovedOutIsNotQuiet) {
+  SmallWorld world = Relaxing();
+  world.things.push_back({.position = {0, kRadius - 0.09, 0}});
+  for (int i = 0; i < 10; ++i) world.Step([](SmallWorld* w) { Touches(0, w); });
+  EXPECT_GT(world.report.islands[0].speed, 0.1);
+  EXPECT_EQ(world.report.islands[0].quiet, 0);
+  for (int i = 0; i < 60; ++i) world.Step([](SmallWorld* w) { Touches(0, w); });
+  EXPECT_GT(world.report.islands[0].quiet, 10);
+}
+
 TEST(Relax, StaysInABudgetOfWork) {
   for (const std::int64_t work : {0, 20, 100, 1000}) {
     SmallWorld world = Relaxing();

@@ -53,7 +53,7 @@ struct SmallWorld {
       body.inv_inertia = Eigen::Matrix3d::Identity() / thing.inertia;
       body.impulse = Vector3d(0, -gravity * h * thing.mass, 0);
     }
-    const StepInput step{bodies, h};
+    const StepInput step{bodies, h, solver.settings().substeps};
     contacts.Begin(step);
     joints.Begin(step);
     fill(this);

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -80,6 +81,26 @@ TEST(Recorder, WritesTheFramesThatAreWantedAndNothingElse) {
   EXPECT_EQ(read.frame, 4);
   EXPECT_EQ(read.source, "test");
   EXPECT_EQ(read.row_impulses, test::RandomRecording(4).row_impulses);
+}
+
+// In parts, and relaxed, the clock decides more than a replay holds.
+TEST(Recorder, KeepsAReplayOnlyOfWhatCanBeMadeAgain) {
+  const std::string path = testing::TempDir() + "cairn_recorder_replay.cairn";
+  for (const bool relax : {false, true}) {
+    for (const int substeps : {1, 2}) {
+      Recorder recorder("test");
+      recorder.RecordNext(path);
+      const Body body{.inv_mass = 1};
+      recorder.Begin({.bodies = {&body, 1}}, {});
+      recorder.End({.substeps = substeps,
+                    .relax = relax,
+                    .budget = Budget::Time(std::chrono::milliseconds(1))},
+                   {});
+      Recording recording;
+      ASSERT_TRUE(Load(path, &recording).ok());
+      EXPECT_EQ(recording.replay.has_value(), substeps == 1 && !relax);
+    }
+  }
 }
 
 TEST(Recorder, OfAnotherWorldOverwritesNothing) {
