@@ -46,10 +46,10 @@ std::string ShrinkOne(const bench::CampaignOptions& options, const bench::WorldR
       NameOf(shrunk.finding.oracle), shrunk.finding.value, shrunk.finding.line, shrunk.trial.bodies,
       shrunk.trial.joints, shrunk.seconds, shrunk.worst_frame, recorded ? "" : " (not recorded)");
   WriteFile(path + ".txt",
-            fmt::format("{}{}\ncairn worlds --seed {} --scale {} --seconds {} --solver {} "
+            fmt::format("{}{}\ncairn worlds --seed {} --scale {} --seconds {} --solver {}{} "
                         "--report\n",
                         line, DescribeWorld(shrunk.world), result.seed, shrunk.world.scale,
-                        shrunk.seconds, solver.name));
+                        shrunk.seconds, solver.name, shrunk.world.locks ? " --locks" : ""));
   return line;
 }
 

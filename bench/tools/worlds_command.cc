@@ -24,7 +24,7 @@ namespace {
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
   std::string seconds = "5", scale = "1", jobs, json, shrink, beside, doubts = "0";
-  bool list = false, report = false, audit = false, bits = false;
+  bool list = false, report = false, audit = false, bits = false, locks = false;
   OutputWords output;
 };
 
@@ -107,6 +107,7 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.trial.world.scale =
       ParseNumber("--scale", words.scale, 0.01, 1, "the share of their size that worlds have");
   options.trial.audit_every = words.audit || words.report ? 1 : 10;
+  options.trial.world.locks = words.locks;
   const int cores = std::max(1u, std::thread::hardware_concurrency());
   options.jobs = words.jobs.empty()
                      ? cores
@@ -143,7 +144,8 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   if (words.bits) CheckBits(options, &results);
   for (const bench::WorldResult& result : results) {
     if (!words.report) break;
-    const bench::WorldSeed seed{result.seed, options.trial.world.scale};
+    bench::WorldSeed seed = options.trial.world;
+    seed.seed = result.seed;
     fmt::print("{}\n", WorldReport(result, DescribeWorld(seed), options.variants));
   }
   if (!words.report) fmt::print("{}\n", WorldTables(results, options.variants, words.bits));
@@ -181,6 +183,8 @@ Command AddWorldsCommand(CLI::App* app) {
       "FILE,...");
   add("--shrink", &words->shrink,
       "Make failures smaller, and write them and their worst frame into a folder", "DIR");
+  worlds->add_flag("--locks", words->locks,
+                   "Bodies with locked axes, as games in a plane have them; no momentum then");
   worlds->add_flag("--list", words->list, "Names the kinds of worlds");
   worlds->add_flag("--report", words->report, "Shows each world in detail; best with --seed");
   worlds->add_flag("--audit", words->audit, "Audits every substep, not every tenth");

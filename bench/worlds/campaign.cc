@@ -90,7 +90,9 @@ WorldResult RunWorld(const CampaignOptions& options, const WorldSeed& seed) {
 std::vector<WorldResult> RunWorlds(const CampaignOptions& options) {
   std::vector<WorldResult> results(options.seeds.size());
   ForEachWorld(options, [&](size_t i) {
-    results[i] = RunWorld(options, {options.seeds[i], options.trial.world.scale});
+    WorldSeed world = options.trial.world;
+    world.seed = options.seeds[i];
+    results[i] = RunWorld(options, world);
   });
   return results;
 }

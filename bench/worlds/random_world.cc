@@ -12,10 +12,38 @@ namespace {
 
 // Random numbers of their own for rules, world and steps: one does not change with another.
 constexpr std::uint64_t kRuleStream = 0x5bd1e9955bd1e995u, kDraftStream = 0x27d4eb2f165667c5u,
-                        kStepStream = 0x9e3779b185ebca87u;
+                        kStepStream = 0x9e3779b185ebca87u, kLockStream = 0xc2b2ae3d27d4eb4fu;
 
 std::uint64_t Stream(std::uint64_t seed, std::uint64_t stream) {
   return Random(seed ^ stream).Bits();
+}
+
+/// What a body may not do.
+struct Locks {
+  btVector3 linear, angular;
+};
+
+/// Of a game seen from the side, of one seen from above with balls that roll and without, of
+/// characters, of what may lean in one plane.
+Locks DrawLocks(Random* random) {
+  static const Locks kLocks[] = {{{1, 1, 0}, {0, 0, 1}},
+                                 {{1, 0, 1}, {0, 1, 0}},
+                                 {{1, 0, 1}, {1, 1, 1}},
+                                 {{1, 1, 1}, {0, 0, 0}},
+                                 {{1, 1, 1}, {0, 0, 1}}};
+  return kLocks[std::min(4, static_cast<int>(random->Within(0, 5)))];
+}
+
+/// The same for all bodies, for half of them, or for each its own.
+void LockAxes(Random random, World* world) {
+  const double draw = random.Within(0, 1);
+  Locks locks = DrawLocks(&random);
+  for (btRigidBody* body : world->dynamic_bodies()) {
+    if (draw > 0.8) locks = DrawLocks(&random);
+    if (draw > 0.6 && random.Within(0, 1) < 0.5) continue;
+    body->setLinearFactor(locks.linear);
+    body->setAngularFactor(locks.angular);
+  }
 }
 
 }  // namespace
@@ -34,6 +62,8 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
     // momentum is watched there, and only what solvers do to it
     for (btRigidBody* body : world_.dynamic_bodies()) body->setFlags(0);
   }
+  locks_ = seed.locks;
+  if (locks_) LockAxes(Random(Stream(seed.seed, kLockStream)), &world_);
   events_ = std::move(draft.events());
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
@@ -67,6 +97,7 @@ std::string RandomWorld::Describe() const {
   text << kind_.name << ": " << kind_.description << "; " << world_.dynamic_bodies().size()
        << " bodies of " << lightest << " to " << heaviest << " kg, " << world_.joints().size()
        << " joints; " << bench::Describe(rules_);
+  if (locks_) text << ", locked axes";
   if (!events_.empty()) text << " at";
   for (const Event& event : events_) text << ' ' << event.time;
   if (!events_.empty()) text << " s";

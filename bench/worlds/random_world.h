@@ -12,7 +12,8 @@ namespace cairn::bench {
 /// Which world: the same bits each time.
 struct WorldSeed {
   std::uint64_t seed = 0;
-  double scale = 1;  ///< In (0, 1]: smaller worlds of the same kind, to shrink one that fails.
+  double scale = 1;    ///< In (0, 1]: smaller worlds of the same kind, to shrink one that fails.
+  bool locks = false;  ///< Bodies have locked axes; all else is as without.
 };
 
 /// The kind that a seed is of.
@@ -48,6 +49,7 @@ class RandomWorld {
   std::vector<Event> events_;
   size_t next_event_ = 0;
   double time_ = 0;
+  bool locks_ = false;
 };
 
 }  // namespace cairn::bench

@@ -40,10 +40,12 @@ Shrunk Shrink(const CampaignOptions& options, const WorldResult& result, size_t 
   Shrunk shrunk;
   shrunk.finding = result.findings[variant].front();
   shrunk.trial = result.trials[variant];
-  shrunk.world = {result.seed, options.trial.world.scale};
+  shrunk.world = options.trial.world;
+  shrunk.world.seed = result.seed;
   shrunk.seconds = options.trial.seconds;
   for (const double scale : kScales) {
-    const WorldSeed world{result.seed, scale};
+    WorldSeed world = shrunk.world;
+    world.scale = scale;
     if (scale < shrunk.world.scale && Try(own, world, shrunk.seconds, &shrunk)) break;
   }
   for (const double share : {0.25, 0.5, 0.8}) {

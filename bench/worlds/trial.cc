@@ -44,7 +44,7 @@ class Run {
       random_.world().solver_info().m_numIterations = variant.iterations;
     }
     if (cairn_ != nullptr) cairn_->settings().threads = options.threads;
-    if (random_.kind().floats) momentum_.emplace().Listen(&random_.world());
+    if (random_.kind().floats && !options.world.locks) momentum_.emplace().Listen(&random_.world());
   }
 
   Trial Finish() {

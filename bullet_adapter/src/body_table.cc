@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "body_table.h"
 
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -76,6 +78,14 @@ void PrefetchAhead(std::span<btCollisionObject* const> objects, size_t i) {
   constexpr size_t kAhead = 4;
   if (i + kAhead >= objects.size()) return;
   Prefetch(objects[i + kAhead], sizeof(btRigidBody));
+}
+
+/// Whether a joint that is in a world holds it.
+bool IsJointed(btRigidBody* rigid) {
+  for (int i = 0; i < rigid->getNumConstraintRefs(); ++i) {
+    if (rigid->getConstraintRef(i)->isEnabled()) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -189,7 +199,12 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
 }
 
 void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
-  for (const GeometricStiffness::Raised& raised : stiffness->RaiseInertia(part, bodies_)) {
+  jointed_.clear();
+  if (!stiffness->empty()) {
+    for (btRigidBody* const rigid : rigids_) jointed_.push_back(IsJointed(rigid) ? 1 : 0);
+  }
+  for (const GeometricStiffness::Raised& raised :
+       stiffness->RaiseInertia(part, bodies_, jointed_)) {
     Motion& motion = motions_[raised.body];
     const Eigen::Vector3d torque_spin =
         ToEigen(rigids_[raised.body]->getTotalTorque() *
@@ -202,7 +217,10 @@ void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
 
 const ContactEnd& BodyTable::Enter(const btCollisionObject& object) {
   const int index = object.getWorldArrayIndex();
-  if (index >= static_cast<int>(slots_.size())) slots_.resize(index + 1);
+  if (index >= static_cast<int>(slots_.size())) {
+    slots_.resize(index + 1);
+    ++growths_;
+  }
   if (index >= 0 && slots_[index].substep != substep_) {
     Slot& slot = slots_[index];
     slot.object = &object;

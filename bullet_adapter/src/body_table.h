@@ -79,8 +79,8 @@ class BodyTable {
     const auto stranger = strangers_.find(&object);
     return stranger == strangers_.end() ? nullptr : &stranger->second;
   }
-  /// Where most ends are. While that stays they stay where they are.
-  const void* place() const { return slots_.data(); }
+  /// How often ends have moved to another place: pointers to them are good until they do.
+  int growths() const { return growths_; }
 
   int size() const { return static_cast<int>(bodies_.size()); }
   std::span<const Body> bodies() const { return bodies_; }
@@ -125,6 +125,7 @@ class BodyTable {
   unsigned substep_ = 0;
   btScalar time_step_ = 0;
   std::vector<Slot> slots_;
+  int growths_ = 0;
   /// By slot: the last substep in which several threads listed bodies and one came to it.
   std::unique_ptr<std::atomic<unsigned>[]> claims_;
   size_t claims_size_ = 0;
@@ -135,6 +136,7 @@ class BodyTable {
   std::vector<Body> bodies_;
   std::vector<Motion> motions_;
   std::vector<btRigidBody*> rigids_;
+  std::vector<char> jointed_;  ///< by number, while stiffness is looked for
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -38,6 +38,9 @@ inline double Bound(btScalar value) {
   return value;
 }
 
+/// What makes no sense below 0; what is not a number stays that.
+inline btScalar NotBelowZero(btScalar value) { return value < 0 ? btScalar(0) : value; }
+
 /// Step lengths that a sweep can be made with; where Bullet's diverges, the exact one.
 inline double Relaxation(double factor) { return factor > 0 && factor < 1.99 ? factor : 1.0; }
 

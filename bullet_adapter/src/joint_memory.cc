@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "joint_memory.h"
 
+#include <cmath>
 #include <utility>
 
 #include "prefetch.h"
@@ -34,7 +35,8 @@ bool Alike(const AnyRow& a, const AnyRow& b, const JointRows& joint) {
     aa += Dot(a.linear_b, a.linear_b) + Dot(a.angular_b, a.angular_b);
     bb += Dot(b.linear_b, b.linear_b) + Dot(b.angular_b, b.angular_b);
   }
-  return ab > 0 && ab * ab >= kAlike * kAlike * aa * bb;
+  // rows that ask for nothing are alike
+  return (aa == 0 && bb == 0) || (ab > 0 && ab * ab >= kAlike * kAlike * aa * bb);
 }
 
 template <class AnyRow>
@@ -71,9 +73,10 @@ void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) 
   const bool same = entry.type == joint.joint->getConstraintType() &&
                     entry.body_a == &joint.joint->getRigidBodyA() &&
                     entry.body_b == &joint.joint->getRigidBodyB() &&
-                    entry.applied_impulse == applied_[place] && last.rows == joint.rows &&
-                    last.written_out == joint.written_out && last.a_moves == joint.a_moves &&
-                    last.b_moves == joint.b_moves;
+                    entry.applied_impulse == applied_[place] &&
+                    std::signbit(entry.applied_impulse) == std::signbit(applied_[place]) &&
+                    last.rows == joint.rows && last.written_out == joint.written_out &&
+                    last.a_moves == joint.a_moves && last.b_moves == joint.b_moves;
   if (!same) return;
   if (joint.written_out) {
     const Row* const rows = &group->rows[joint.first_row];
@@ -96,10 +99,12 @@ void JointMemory::Keep(const GroupProblem& group) {
   entries_.clear();
   index_.Clear();
   for (const JointRows& rows : group.joints) {
-    const btTypedConstraint& joint = *rows.joint;
+    btTypedConstraint& joint = *rows.joint;
+    // a new one has +0
+    if (joint.internalGetAppliedImpulse() == 0) joint.internalSetAppliedImpulse(btScalar(-0.0));
     index_.Add(rows.joint);
     entries_.push_back({&joint.getRigidBodyA(), &joint.getRigidBodyB(), joint.getConstraintType(),
-                        rows.joint->internalGetAppliedImpulse()});
+                        joint.internalGetAppliedImpulse()});
   }
 }
 

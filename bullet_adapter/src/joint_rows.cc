@@ -59,6 +59,17 @@ btScalar HalfDiagonal(const btRigidBody& rigid, const btVector3& linear, const b
          (rigid.getInvInertiaTensorWorld() * angular).dot(angular);
 }
 
+/// A row that only turns moves a body with an angular factor if that answers at least this share of
+/// what it would without the factor. The core knows the inertia with its factor alone, and tells by
+/// itself what is rounding; frames of joints are turned by more than that.
+constexpr btScalar kLeastShare = btScalar(0.01);
+
+/// Whether half of a row that only turns leaves a body alone, about whose axis it is locked.
+bool IsLeftAlone(const btRigidBody& rigid, const btVector3& angular) {
+  const btVector3 free = angular * rigid.getAngularFactor(), none(0, 0, 0);
+  return HalfDiagonal(rigid, none, free) < kLeastShare * HalfDiagonal(rigid, none, angular);
+}
+
 /// J v of one half of a row, with all that is known of v. Joints see the velocity of static bodies,
 /// too.
 btScalar HalfSpeed(const btRigidBody& rigid, const Motion* motion, const btVector3& linear,
@@ -129,7 +140,8 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   most_sweeps_ = std::max(most_sweeps_, sweeps);
   const btRigidBody &a = joint->getRigidBodyA(), &b = joint->getRigidBodyB();
   const ContactEnd end_a = bodies_->EndOf(a), end_b = bodies_->EndOf(b);
-  if (!end_a.reacts && !end_b.reacts) return result;
+  // nothing comes of a joint of a body with itself
+  if ((!end_a.reacts && !end_b.reacts) || &a == &b) return result;
   const int max_sweeps = limits == SweepLimits::kBullet ? sweeps : std::numeric_limits<int>::max();
 
   result.a_moves = end_a.number != kWorld;
@@ -140,6 +152,7 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
     return number == kWorld ? nullptr : &bodies_->motion(number);
   };
   const Ends ends{a, b, motion(end_a.number), motion(end_b.number), end_a.number, end_b.number};
+  LeaveLockedAlone(ends, damping);
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
     const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .host = {.max_sweeps = max_sweeps}};
@@ -149,6 +162,23 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
     AppendCompact(ends, max_sweeps, damping);
   }
   return result;
+}
+
+void JointRowBuilder::LeaveLockedAlone(const Ends& ends, btScalar damping) {
+  const auto look = [&](const btRigidBody& rigid, const Motion* motion, auto angular_of) {
+    if (rigid.getAngularFactor() == btVector3(1, 1, 1)) return;
+    for (Slot& slot : slots_) {
+      const bool turns = ToVector(slot.linear_a).isZero() && ToVector(slot.linear_b).isZero();
+      btScalar* const angular = angular_of(&slot);
+      const btVector3 axis = ToVector(angular);
+      if (!turns || !IsLeftAlone(rigid, axis)) continue;
+      // the spin that it keeps is no longer seen
+      slot.error -= damping * HalfSpeed(rigid, motion, btVector3(0, 0, 0), axis);
+      std::fill_n(angular, 3, btScalar(0));
+    }
+  };
+  look(ends.a, ends.motion_a, [](Slot* slot) { return slot->angular_a; });
+  look(ends.b, ends.motion_b, [](Slot* slot) { return slot->angular_b; });
 }
 
 btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info) {
@@ -166,7 +196,7 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSol
   slots_.assign(std::max(0, size.m_numConstraintRows), empty);
   if (slots_.empty()) return 0;
   Slot& first = slots_[0];
-  first.cfm = info.m_globalCfm;  // of the first row only, as in Bullet
+  first.cfm = NotBelowZero(info.m_globalCfm);  // of the first row only, as in Bullet
 
   btTypedConstraint::btConstraintInfo2 query{};
   query.fps = btScalar(1) / info.m_timeStep;
@@ -186,8 +216,9 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSol
   joint->getInfo2(&query);
   if (cone != nullptr) slots_.resize(RowsOf(cone));
 
-  const btScalar breaking = joint->getBreakingImpulseThreshold();
+  const btScalar breaking = NotBelowZero(joint->getBreakingImpulseThreshold());
   for (Slot& slot : slots_) {
+    slot.cfm = NotBelowZero(slot.cfm);
     if (slot.upper >= breaking) slot.upper = breaking;
     if (slot.lower <= -breaking) slot.lower = -breaking;
   }

@@ -59,6 +59,8 @@ class JointRowBuilder {
                         SweepLimits limits, ContactForm form);
   /// Asks the joint for its rows. Returns their damping.
   btScalar FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info);
+  /// Takes bodies out of rows that only turn, about axes that they are locked about.
+  void LeaveLockedAlone(const Ends& ends, btScalar damping);
   bool IsCompact() const;
   static btScalar Diagonal(const Ends& ends, const Slot& slot);
   /// What the core does not see of J v: static bodies have no number there, and may have a

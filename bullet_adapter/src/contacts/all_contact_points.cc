@@ -29,7 +29,8 @@ bool ContactPoints::AppendAll(std::span<btPersistentManifold* const> manifolds, 
   };
   threads->For(count, kManifoldsOfPart, find, kLabel);
 
-  const void* const place = bodies->place();
+  // those that were met before have moved: one by one then, which happens while a world grows
+  if (EnterStrangers(std::span(parts_).first(parts), bodies)) return false;
   size_t points = 0, entries = 0;
   for (Part& part : std::span(parts_).first(parts)) {
     if (part.strange) MeetStrangers(bodies, &part);
@@ -38,8 +39,6 @@ bool ContactPoints::AppendAll(std::span<btPersistentManifold* const> manifolds, 
     points += part.points;
     entries += part.entries.size();
   }
-  // those that were met before have moved: one by one then, which happens while a world grows
-  if (bodies->place() != place) return false;
   MakeRoom(points);
   if (manifolds_.size() < entries) manifolds_.resize(entries);
 
@@ -77,6 +76,17 @@ void ContactPoints::FindEntries(std::span<btPersistentManifold* const> manifolds
     part->entries.push_back(entry);
     part->points += manifold->getNumContacts();
   }
+}
+
+bool ContactPoints::EnterStrangers(std::span<const Part> parts, BodyTable* bodies) {
+  const int growths = bodies->growths();
+  for (const Part& part : parts) {
+    for (const Entry& entry : part.entries) {
+      if (entry.a == nullptr) bodies->EndOf(*entry.manifold->getBody0());
+      if (entry.b == nullptr) bodies->EndOf(*entry.manifold->getBody1());
+    }
+  }
+  return bodies->growths() != growths;
 }
 
 void ContactPoints::MeetStrangers(BodyTable* bodies, Part* part) const {

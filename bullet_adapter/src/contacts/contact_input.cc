@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/contact_input.h"
 
+#include "conversions.h"
+
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
@@ -131,7 +133,7 @@ Softness SoftnessOf(const btManifoldPoint& point, const btContactSolverInfo& inf
     cfm = 1 / sum;
     erp = spring / sum;
   }
-  return {.erp = erp, .compliance = cfm / info.m_timeStep};
+  return {.erp = erp, .compliance = NotBelowZero(cfm) / info.m_timeStep};
 }
 
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,

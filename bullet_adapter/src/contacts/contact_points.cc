@@ -31,8 +31,9 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   twist_impulses_.clear();
   info_ = info;
   start_ = start;
-  softness_ = {.erp = info.m_erp2, .compliance = info.m_globalCfm / info.m_timeStep};
-  law_ = {.bounce_speed = static_cast<float>(info.m_restitutionVelocityThreshold),
+  softness_ = {.erp = info.m_erp2, .compliance = NotBelowZero(info.m_globalCfm) / info.m_timeStep};
+  // below 0 all bounce
+  law_ = {.bounce_speed = static_cast<float>(NotBelowZero(info.m_restitutionVelocityThreshold)),
           .host = {.spin_before_torques = true}};
   like_ = {.body_a = kWorld, .body_b = kWorld};
   like_.tangents = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;

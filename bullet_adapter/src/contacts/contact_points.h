@@ -91,7 +91,9 @@ class ContactPoints {
   void Describe(const Ends& ends, const Features& found, size_t first_point, Manifold* to) const;
   void FindEntries(std::span<btPersistentManifold* const> manifolds, const BodyTable& bodies,
                    Part* part) const;
-  /// Enters who was not met yet, and drops manifolds in which nobody reacts.
+  /// Enters who was not met yet. Whether pointers of entries are good no longer: some moved.
+  static bool EnterStrangers(std::span<const Part> parts, BodyTable* bodies);
+  /// Points to those, and drops manifolds in which nobody reacts.
   void MeetStrangers(BodyTable* bodies, Part* part) const;
   void ReadPart(Part* part);
   void ReadRest(const Part& part, const BodyTable& bodies, SplitImpulse* pushes);

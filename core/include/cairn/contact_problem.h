@@ -25,7 +25,7 @@ struct Body {
   double inv_mass = 0;  ///< [1/kg], >= 0; 0: no impulse changes its velocity (inv_inertia 0, too).
   /// Inverse inertia about the centre of mass [1/(kg m^2)], symmetric positive semidefinite.
   Matrix3 inv_inertia = {};
-  /// Scales inv_mass along each world axis, >= 0; 0 locks the axis.
+  /// Scales inv_mass along each world axis, >= 0; 0 locks it: rows along it leave the body alone.
   Vector3 linear_factor = {1, 1, 1};
   Velocity velocity = {};
   Vector3 impulse = {};          ///< External, over the step [N s].

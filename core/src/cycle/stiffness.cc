@@ -91,10 +91,10 @@ simd::PrincipalAxesKernel AxesKernel() {
 }  // namespace
 
 std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
-    double time_step, std::span<Body> bodies) {
+    double time_step, std::span<Body> bodies, std::span<const char> jointed) {
   raised_.clear();
   raised_.reserve(memories_.size());
-  FindStrained(time_step, bodies);
+  FindStrained(time_step, bodies, jointed);
   simd::PrincipalAxes axes;
   for (size_t from = 0; from < strained_.size(); from += simd::kLanes) {
     const size_t count = std::min<size_t>(simd::kLanes, strained_.size() - from);
@@ -116,13 +116,14 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
   return raised_;
 }
 
-void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies) {
+void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies,
+                                      std::span<const char> jointed) {
   strained_.clear();
   strained_.reserve(memories_.size());
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     Body& body = bodies[i];
     body.strain = 0;
-    if (memories_.empty()) continue;
+    if (memories_.empty() || (!jointed.empty() && jointed[i] == 0)) continue;
     Memory* const memory = Find(body, i);
     if (memory == nullptr || memory->inv_mass != body.inv_mass) continue;
     // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
@@ -226,6 +227,18 @@ void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Repor
   for (const Joint& joint : problem.joints) look(joint);
   for (const Row& row : problem.rows) look(row);
   for (const Manifold& manifold : problem.manifolds) look(manifold);
+}
+
+void GeometricStiffness::FindJointed(const ContactProblem& problem) {
+  jointed_.assign(problem.bodies.size(), 0);
+  const auto mark = [this](const auto& between) {
+    if (between.body_a != kWorld) jointed_[between.body_a] = 1;
+    if (between.body_b != kWorld) jointed_[between.body_b] = 1;
+  };
+  for (const Joint& joint : problem.joints) mark(joint);
+  for (const Row& row : problem.rows) {
+    if (row.parent == kNoRow && row.lo == -kInfinity && row.hi == kInfinity) mark(row);
+  }
 }
 
 void GeometricStiffness::FindPulled(double time_step, const ContactProblem& problem,
@@ -341,6 +354,7 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
   pulled_.clear();
   sums_.clear();
   place_.assign(bodies, -1);
+  FindJointed(problem);
   FindPulled(time_step, problem, impulses);
   AddJoints(time_step, problem, impulses);
   AddRows(time_step, problem, impulses);
@@ -356,7 +370,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     if (known_[i] == nullptr) continue;
     Memory& memory = *known_[i];
     memory.place = static_cast<int>(i);
-    memory.seen = memory.inv_mass == bodies[i].inv_mass;
+    memory.seen = memory.inv_mass == bodies[i].inv_mass && jointed_[i] != 0;
     View(memory.stiffness) *= stepped_[i] != 0 ? 0 : kKeep;
   }
   for (size_t p = 0; p < pulled_.size(); ++p) {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "pack/manifold_pack.h"
+#include "problem/locked_axes.h"
 #include "problem/validate.h"
 #include "runtime/in_parts.h"
 
@@ -132,6 +133,7 @@ BlockPacker BlockFrame::PackerOf(const ContactProblem& problem) const {
           .movable = movable_,
           .bodies = bodies_,
           .contact_bodies = contact_bodies_,
+          .locked = locked_,
           .omega = omega_,
           .pack_row = pack_row_,
           .pack_joints = pack_joints_,
@@ -201,12 +203,13 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
   bodies_.resize(bodies.size());
   movable_now_.resize(bodies.size());
   WorstResult worst;
-  std::atomic<bool> strained{false};
+  std::atomic<bool> strained{false}, locked{false};
   InParts(static_cast<int>(bodies.size()), kBodiesOfUnit, crew, [&](int first, int count) {
     Finiteness<kNumbersOfMotion> motions;
     for (int i = first; i < first + count; ++i) {
       movable_now_[i] = MobilityOf(bodies[i]);
       if (bodies[i].strain > 0) strained.store(true, std::memory_order_relaxed);
+      if (HasLockedAxes(bodies[i])) locked.store(true, std::memory_order_relaxed);
       if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kChanged);
       if (!FitsFloats(bodies[i], bodies_[i])) worst.Add(PackResult::kOutOfRange);
       if (!contacts) continue;
@@ -217,6 +220,7 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
     if (!motions.all()) worst.Add(PackResult::kOutOfRange);
   });
   strained_ = strained;
+  locked_ = locked;
   return worst.get();
 }
 

@@ -71,7 +71,7 @@ class BlockFrame {
   double omega_ = 1;
   size_t planned_rows_ = 0;
   bool planned_ = false;
-  bool strained_ = false;
+  bool strained_ = false, locked_ = false;
   MovableBodies movable_, movable_now_;
   Array<WhitenedBody> bodies_;
   Array<simd::ContactBody> contact_bodies_;

@@ -9,6 +9,7 @@
 
 #include "cairn/detail/prefetch.h"
 #include "pack/joint_pack.h"
+#include "pack/locked_rows.h"
 #include "pack/manifold_pack.h"
 #include "plan/row_kind.h"
 
@@ -320,6 +321,7 @@ PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulse
   for (int block = first_block; block < first_block + count; ++block) {
     const PackResult result = PackBlock(block, impulses, blocks);
     if (result != PackResult::kDone) return result;
+    if (locked) LeaveLockedAlone(*this, block, blocks);
     couple(plan.blocks()[block], blocks->data.data() + plan.blocks()[block].data);
   }
   return PackResult::kDone;

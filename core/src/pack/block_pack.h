@@ -43,6 +43,7 @@ struct BlockPacker {
   const MovableBodies& movable;
   std::span<const WhitenedBody> bodies;
   std::span<const simd::ContactBody> contact_bodies;  ///< if there are joints or manifolds
+  bool locked;                                        ///< there are bodies with locked axes
   double omega;
   simd::RowPackKernel pack_row;
   simd::JointRowsKernel pack_joints;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "problem/locked_axes.h"
 #include "problem/relaxation.h"
 
 namespace cairn {
@@ -10,6 +11,7 @@ namespace cairn {
 Packer::Packer(const ContactProblem& problem, const Settings& settings)
     : problem_(problem),
       omega_(OmegaOf(settings)),
+      leaves_locked_(settings.tuning.lifted_friction != detail::LiftedFriction::kHold),
       bodies_(problem.bodies.size()),
       local_(problem.bodies.size(), 0),
       local_row_(problem.rows.size(), kNoRow) {
@@ -22,6 +24,11 @@ Vector6 Packer::WhitenRow(int body, const Eigen::Vector3d& linear,
   if (body == kWorld) return g;
   Eigen::Map<Eigen::Vector3d>(g.data()) = bodies_[body].linear.cwiseProduct(linear);
   Eigen::Map<Eigen::Vector3d>(g.data() + 3) = bodies_[body].angular.transpose() * angular;
+  const Body& of = problem_.bodies[body];
+  if (leaves_locked_ && HasLockedAxes(of) &&
+      IsLeftAlone(of, linear.squaredNorm(), angular.squaredNorm(), std::span<const double, 6>(g))) {
+    g = {};
+  }
   return g;
 }
 

@@ -120,6 +120,7 @@ class Packer {
 
   ContactProblem problem_;
   double omega_;
+  bool leaves_locked_;  ///< not where sweeps are Bullet's, whose short steps do
   Array<WhitenedBody> bodies_;
   mutable Array<int> local_;  ///< scratch: problem row or body -> island row or body
   mutable Array<int> local_row_;

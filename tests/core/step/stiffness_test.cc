@@ -80,6 +80,22 @@ TEST(Stiffness, KnowsNothingOfContacts) {
   EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies).empty());
 }
 
+TEST(Stiffness, LeavesBodiesWithoutJointsAlone) {
+  GeometricStiffness stiffness;
+  const Scene loaded = test::HangingChain(3, 1000);
+  SolveAndLearn(loaded, &stiffness);
+  ASSERT_FALSE(stiffness.empty());
+  // at once, where that is known before
+  std::vector<Body> bodies = loaded.bodies;
+  const std::vector<char> jointed(bodies.size(), 0);
+  EXPECT_TRUE(stiffness.RaiseInertia(kStep, bodies, jointed).empty());
+  // and after a step without joints
+  Scene cut = loaded;
+  cut.rows.clear();
+  SolveAndLearn(cut, &stiffness);
+  EXPECT_TRUE(stiffness.empty());
+}
+
 TEST(Stiffness, FadesWhenTheLoadIsGone) {
   GeometricStiffness stiffness;
   const Scene loaded = test::HangingChain(3, 100), free = test::HangingChain(3, 1);

@@ -34,11 +34,11 @@ struct SubstepTimes {
 ///
 /// Without a budget (the default) btContactSolverInfo::m_numIterations says how hard to try. Each
 /// island makes that many accelerated sweeps, and a subspace step among them where it does more
-/// than sweeps in its place would and costs at most 1.25 times all else about the island
-/// (StepPolicy::kWeighed, in place of the default kMeasured). Islands without a step go on for up
-/// to twice as many sweeps, as long as all of it is predicted to stay below two thirds of what
-/// Bullet's iterations take. All of that is counted, never timed. A Budget::Time is for the whole
-/// substep, set-up and write-back included. Options::effort says whose numbers are read.
+/// than sweeps in its place would and costs little enough (StepPolicy::kWeighed, in place of the
+/// default kMeasured; docs/bullet.md has the limits). Islands without a step go on for up to twice
+/// as many sweeps, as long as all of it is predicted to stay below 0.85 of what Bullet's iterations
+/// take. All of that is counted, never timed. A Budget::Time is for the whole substep, set-up and
+/// write-back included. Options::effort says whose numbers are read.
 ///
 /// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration, and all while a
 /// setting is out of its range. report() says so, and complaint() and the debug drawer in words.

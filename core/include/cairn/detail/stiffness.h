@@ -38,19 +38,23 @@ class GeometricStiffness {
 
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
   /// Body::inv_inertia, and writes Body::strain of all. Velocities are left to the caller, see
-  /// Raised; valid until the next call.
-  std::span<const Raised> RaiseInertia(double time_step, std::span<Body> bodies);
+  /// Raised; valid until the next call. @p jointed: by body, 0 for those that no joint holds in
+  /// this step, which are left alone at once, and not after it; none: not known
+  std::span<const Raised> RaiseInertia(double time_step, std::span<Body> bodies,
+                                       std::span<const char> jointed = {});
   /// The same, and damps Body::velocity.
   void Apply(double time_step, std::span<Body> bodies);
   /// Remembers what joints of a solved problem pull with: those of three rows without bounds along
   /// directions at right angles to each other. What sweeps alone leave on an island is not yet its
   /// tension, so there it is averaged over some steps. Islands that touch nothing but themselves
   /// are left alone: raised inertia would take from their angular momentum. Does nothing if the
-  /// report is not ok().
+  /// report is not ok(). What is known of bodies without joints is forgotten.
   void Learn(double time_step, const ContactProblem& problem, const Impulses& impulses,
              const Report& report);
   /// Forgets all tension.
   void Reset() { memories_.clear(); }
+  /// Nothing is remembered of any body.
+  bool empty() const { return memories_.empty(); }
 
  private:
   /// Of a body, by its id or place.
@@ -71,11 +75,12 @@ class GeometricStiffness {
   };
 
   /// Writes strained_, and Body::strain of all.
-  void FindStrained(double time_step, std::span<Body> bodies);
+  void FindStrained(double time_step, std::span<Body> bodies, std::span<const char> jointed);
   void Raise(double time_step, const Strained& strained, const Vector3& inv_moments,
              const Matrix3& axes, std::span<Body> bodies);
   void FindAnchored(const ContactProblem& problem, const Report& report);
   void Add(int body, const Vector3& arm, const Vector3& impulse, double time_step);
+  void FindJointed(const ContactProblem& problem);
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
   bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
@@ -98,6 +103,7 @@ class GeometricStiffness {
   std::vector<char> stepped_;       ///< by body: a subspace step was kept on its island
   std::vector<char> anchored_;      ///< by island: something of it touches what does not move
   std::span<const int> island_of_;  ///< of the report that is learnt from
+  std::vector<char> jointed_;       ///< by body: there is a joint of it
   std::vector<double> pull_;        ///< by body: whether joints may pull too hard
   std::vector<int> pulled_;         ///< bodies with an entry in sums_
   std::vector<int> place_;          ///< by body: in pulled_, -1 for none
