@@ -3,8 +3,12 @@
 #include "runtime/crew.h"
 
 #include <gtest/gtest.h>
+#if defined(__linux__)
+#include <unistd.h>
+#endif
 
 #include <atomic>
+#include <fstream>
 #include <functional>
 #include <numeric>
 #include <thread>
@@ -158,6 +162,31 @@ TEST(Threads, AreAsManyAsTheRowsAreWorth) {
   EXPECT_EQ(detail::ThreadsFor(4096, 1), 1);
   EXPECT_EQ(detail::ThreadsFor(1 << 20, 8), 8);
 }
+
+#if defined(__linux__)
+/// Memory of this process that is in use [bytes].
+double Resident() {
+  std::ifstream file("/proc/self/statm");
+  double size = 0, resident = 0;
+  file >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+// Each had an arena of oneTBB's, which was kept until a thread had been in it.
+TEST(Crew, OneAfterTheOtherTakesNoMoreMemory) {
+  const auto live = [](int crews) {
+    for (int i = 0; i < crews; ++i) {
+      Crew crew(2);
+      Counted work({4});
+      crew.Run(&work);
+    }
+  };
+  live(200);
+  const double before = Resident();
+  live(4000);
+  EXPECT_LT(Resident() - before, 4e6);
+}
+#endif
 
 TEST(Crew, EndsBetweenStagesWhereItIsToldTo) {
   for (const int threads : {1, 4}) {
