@@ -15,14 +15,30 @@ namespace {
 /// A job that oneTBB has. It may come to it late, when nobody wants it any more.
 class Job {
  public:
-  bool done() const { return state_.load(std::memory_order_acquire) == kDone; }
+  /// Done, and oneTBB does not have it any more.
+  bool free() const { return owners_.load(std::memory_order_acquire) == 1; }
 
-  /// @pre done()
+  /// For oneTBB, too, which calls RunAndRelease(). @pre free()
   void Set(void (*work)(void*), void* what) {
     work_ = work;
     what_ = what;
+    owners_.fetch_add(1, std::memory_order_relaxed);
     state_.store(kWaiting, std::memory_order_release);
   }
+  void RunAndRelease() {
+    Run();
+    Release();
+  }
+  /// What no thread came for is run here: by now it returns at once.
+  void End() {
+    Run();
+    state_.wait(kRunning, std::memory_order_acquire);
+    Release();
+  }
+
+ private:
+  enum State { kDone, kWaiting, kRunning };
+
   /// Whoever comes first.
   void Run() {
     int waiting = kWaiting;
@@ -35,16 +51,11 @@ class Job {
     state_.store(kDone, std::memory_order_release);
     state_.notify_all();
   }
-  /// What no thread came for is run here: by now it returns at once.
-  void End() {
-    Run();
-    state_.wait(kRunning, std::memory_order_acquire);
+  void Release() {
+    if (owners_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
   }
 
- private:
-  enum State { kDone, kWaiting, kRunning };
-
-  std::atomic<int> state_ = kDone;
+  std::atomic<int> owners_ = 1, state_ = kDone;
   void (*work_)(void*) = nullptr;
   void* what_ = nullptr;
 };
@@ -54,26 +65,26 @@ class Job {
 class TbbExecutor final : public Executor {
  public:
   ~TbbExecutor() override {
-    for (const std::shared_ptr<Job>& job : jobs_) job->End();
+    for (Job* const job : jobs_) job->End();
   }
 
   void Submit(void (*work)(void*), void* what) override {
-    const std::shared_ptr<Job> job = Free();
+    Job* const job = Free();
     job->Set(work, what);
-    tbb::this_task_arena::enqueue([job] { job->Run(); });
+    tbb::this_task_arena::enqueue([job] { job->RunAndRelease(); });
   }
 
  private:
-  /// One that is done, and that oneTBB does not have any more.
-  std::shared_ptr<Job> Free() {
-    const auto free = std::find_if(jobs_.begin(), jobs_.end(), [](const auto& job) {
-      return job->done() && job.use_count() == 1;
-    });
+  Job* Free() {
+    const auto free =
+        std::find_if(jobs_.begin(), jobs_.end(), [](Job* job) { return job->free(); });
     if (free != jobs_.end()) return *free;
-    return jobs_.emplace_back(std::make_shared<Job>());
+    jobs_.reserve(jobs_.size() + 1);
+    jobs_.push_back(new Job);
+    return jobs_.back();
   }
 
-  std::vector<std::shared_ptr<Job>> jobs_;
+  std::vector<Job*> jobs_;
 };
 
 }  // namespace

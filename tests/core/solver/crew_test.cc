@@ -163,7 +163,9 @@ TEST(Threads, AreAsManyAsTheRowsAreWorth) {
   EXPECT_EQ(detail::ThreadsFor(1 << 20, 8), 8);
 }
 
-#if defined(__linux__)
+// Sanitizers keep memory of their own for each.
+#if defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !defined(__clang__)
 /// Memory of this process that is in use [bytes].
 double Resident() {
   std::ifstream file("/proc/self/statm");
