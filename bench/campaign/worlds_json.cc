@@ -112,6 +112,8 @@ void CheckContext(const Json& json, const bench::CampaignOptions& options,
          fmt::format("its worlds are {} s long, these {} s; --seconds says how long",
                      json.at("seconds").dump(), options.trial.seconds));
   expect(json.at("scale") == options.trial.world.scale, "its worlds have another --scale");
+  expect(json.value("locks", false) == options.trial.world.locks,
+         "only its worlds, or only these, are of --locks");
   expect(
       there.at("version") == here.at("version") && there.at("precision") == here.at("precision"),
       fmt::format("it is of Bullet {} {}, this is {} {}", there.at("version").get<std::string>(),
@@ -150,11 +152,10 @@ std::string WorldsToJson(const bench::CampaignOptions& options,
                          std::span<const bench::WorldResult> results, const std::string& command) {
   Json worlds = Json::array();
   for (const bench::WorldResult& result : results) worlds.push_back(ToJson(result, options));
-  const Json json = {{"context", ToJson(DescribeContext(command))},
-                     {"seconds", options.trial.seconds},
-                     {"scale", options.trial.world.scale},
-                     {"audit_every", options.trial.audit_every},
-                     {"worlds", worlds}};
+  const Json json = {
+      {"context", ToJson(DescribeContext(command))}, {"seconds", options.trial.seconds},
+      {"scale", options.trial.world.scale},          {"locks", options.trial.world.locks},
+      {"audit_every", options.trial.audit_every},    {"worlds", worlds}};
   return json.dump(1) + "\n";
 }
 

@@ -94,6 +94,11 @@ bool Reacts(const btRigidBody& rigid) {
   return rigid.getInvMass() != 0 && !rigid.isStaticOrKinematicObject();
 }
 
+btScalar HalfDiagonal(const btRigidBody& rigid, const btVector3& linear, const btVector3& angular) {
+  return linear.length2() * rigid.getInvMass() +
+         (rigid.getInvInertiaTensorWorld() * angular).dot(angular);
+}
+
 Body ToBody(const btRigidBody& rigid) {
   Body body;
   if (!Reacts(rigid)) return body;

@@ -26,6 +26,9 @@ Body ToBody(const btRigidBody& rigid);
 /// Whether impulses change the velocity of a body.
 bool Reacts(const btRigidBody& rigid);
 
+/// J M^-1 J' of one half of a row, without the factors of the body: what Bullet makes its step of.
+btScalar HalfDiagonal(const btRigidBody& rigid, const btVector3& linear, const btVector3& angular);
+
 /// How a body moves before any constraint acts on it.
 struct Motion {
   btVector3 velocity, spin;  ///< Linear [m/s], angular [rad/s].

@@ -27,13 +27,9 @@ struct Diagonals {
   void Add(const btSolverBody& body, const btVector3& linear, const btVector3& angular) {
     if (!MayReact(body)) return;
     const btRigidBody& rigid = *body.m_originalBody;
-    const btVector3 turned = angular * rigid.getAngularFactor();
-    const auto turn = [&rigid](const btVector3& a) {
-      return (rigid.getInvInertiaTensorWorld() * a).dot(a);
-    };
-    without += linear.length2() * rigid.getInvMass() + turn(angular);
-    with += (linear * linear).dot(rigid.getLinearFactor().absolute()) * rigid.getInvMass() +
-            turn(turned);
+    without += HalfDiagonal(rigid, linear, angular);
+    with += HalfDiagonal(rigid, btVector3(0, 0, 0), angular * rigid.getAngularFactor()) +
+            (linear * linear).dot(rigid.getLinearFactor().absolute()) * rigid.getInvMass();
   }
 };
 

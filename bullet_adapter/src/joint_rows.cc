@@ -53,12 +53,6 @@ void Prepare(btTypedConstraint* joint) {
   feedback->m_appliedTorqueBodyB.setZero();
 }
 
-/// J M^-1 J' of one half of a row, without the factors of the body: what Bullet makes its step of.
-btScalar HalfDiagonal(const btRigidBody& rigid, const btVector3& linear, const btVector3& angular) {
-  return linear.length2() * rigid.getInvMass() +
-         (rigid.getInvInertiaTensorWorld() * angular).dot(angular);
-}
-
 /// A row that only turns moves a body with an angular factor if that answers at least this share of
 /// what it would without the factor. The core knows the inertia with its factor alone, and tells by
 /// itself what is rounding; frames of joints are turned by more than that.

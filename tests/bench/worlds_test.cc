@@ -148,6 +148,26 @@ TEST_P(EveryKind, IsSmallerOnASmallerScale) {
   EXPECT_LT(small, whole);
 }
 
+// The same worlds, but for what their bodies may not do.
+TEST(Locks, AreDrawnApartFromTheWorld) {
+  int locked = 0, free = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    btSequentialImpulseConstraintSolver solver;
+    const RandomWorld plain({.seed = seed}, &solver), locks({.seed = seed, .locks = true}, &solver);
+    EXPECT_EQ(StateHash(plain.world()), StateHash(locks.world())) << seed;
+    for (const btRigidBody* body : locks.world().dynamic_bodies()) {
+      const btVector3 all(1, 1, 1);
+      const bool any = body->getLinearFactor() != all || body->getAngularFactor() != all;
+      ++(any ? locked : free);
+    }
+    for (const btRigidBody* body : plain.world().dynamic_bodies()) {
+      EXPECT_EQ(body->getAngularFactor(), btVector3(1, 1, 1));
+    }
+  }
+  EXPECT_GT(locked, free);
+  EXPECT_GT(free, 0);
+}
+
 TEST(Rules, AreDrawnFromAllThatTheyMayBe) {
   Random random(1);
   std::set<double> rates;

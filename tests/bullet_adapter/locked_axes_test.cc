@@ -37,6 +37,9 @@ std::vector<Driver> Drivers() {
   add("reference", new bullet::ConstraintSolver({.path = Path::kReference}));
   add("rows", new bullet::ConstraintSolver({}, {.contacts = bullet::ContactForm::kRows}));
   add("Bullet's set-up", new bullet::ConstraintSolver({}, {.mode = bullet::Mode::kReference}));
+  add("Bullet's own iteration",
+      new bullet::ConstraintSolver({.path = Path::kReference, .steps = false},
+                                   {.mode = bullet::Mode::kReference}));
   return drivers;
 }
 

@@ -81,6 +81,7 @@ void ContactPoints::FindEntries(std::span<btPersistentManifold* const> manifolds
 bool ContactPoints::EnterStrangers(std::span<const Part> parts, BodyTable* bodies) {
   const int growths = bodies->growths();
   for (const Part& part : parts) {
+    if (!part.strange) continue;
     for (const Entry& entry : part.entries) {
       if (entry.a == nullptr) bodies->EndOf(*entry.manifold->getBody0());
       if (entry.b == nullptr) bodies->EndOf(*entry.manifold->getBody1());

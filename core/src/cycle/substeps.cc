@@ -22,6 +22,9 @@ constexpr double kMostHalfTurn = 1;
 /// What is faster turns by nobody knows what.
 constexpr int kMostDoublings = 40;
 
+/// What compliance gave way by, where it is read.
+double Yielded(double compliance, double impulse) { return compliance * impulse; }
+
 Vector3d ToVector(const float* from) { return {from[0], from[1], from[2]}; }
 Vector3d ToVector(const Vector3d& from) { return from; }
 
@@ -293,8 +296,7 @@ void Substeps::Add() {
   }
 }
 
-/// @p way: that the row came, and what its compliance gave way by: a soft row is not behind where
-/// it yields.
+/// @p way: that the row came, and what it yielded: a soft row is not behind by that.
 double Substeps::AimBoth(double target, double way) const {
   const double behind = target * part_ * share() - way;
   return target + kGain * parts_ * behind;
@@ -338,7 +340,7 @@ void Substeps::AimRows() {
     const double target = whole.target + seen;
     double aim = target;
     if (row.parent == kNoRow && !(IsBoundedBelow(row.lo) && IsBoundedAbove(row.hi))) {
-      const double way = along(&Way::way) + whole.compliance * rows_sum_[i];
+      const double way = along(&Way::way) + Yielded(whole.compliance, rows_sum_[i]);
       aim = !IsBoundedBelow(row.lo) && !IsBoundedAbove(row.hi) ? AimBoth(target, way)
             : IsBoundedBelow(row.lo)                           ? AimOne(target, way)
                                                                : -AimOne(-target, -way);
@@ -378,7 +380,7 @@ void Substeps::AimJoints() {
       double aim = target;
       if (!(below && above)) {
         const double way =
-            along(&Way::way) + static_cast<double>(whole.compliance) * joints_sum_[at];
+            along(&Way::way) + (joint.soft ? Yielded(whole.compliance, joints_sum_[at]) : 0);
         aim = !below && !above ? AimBoth(target, way)
               : below          ? AimOne(target, way)
                                : -AimOne(-target, -way);
@@ -424,7 +426,7 @@ void Substeps::AimHeld(const Held& held) {
     }
     if (joint.body_a != kWorld) Put(arm_a.cross(a), row.angular_a);
     if (joint.body_b != kWorld) Put(arm_b.cross(b), row.angular_b);
-    const double yielded = static_cast<double>(whole.compliance) * joints_sum_[first + k];
+    const double yielded = joint.soft ? Yielded(whole.compliance, joints_sum_[first + k]) : 0;
     row.target = ToFloat(AimBoth(target, a.dot(moved_a) + b.dot(moved_b) + yielded) - rest);
   }
 }
@@ -442,7 +444,7 @@ void Substeps::AimPoints() {
       const auto apart = [&](Velocity Way::*what) {
         return Apart(whole, of(manifold.body_a, what), of(manifold.body_b, what));
       };
-      const double yielded = static_cast<double>(whole.compliance) * points_sum_[at].normal;
+      const double yielded = manifold.soft ? Yielded(whole.compliance, points_sum_[at].normal) : 0;
       double aim = AimOne(whole.bias, apart(&Way::way) + yielded);
       point.compliance = static_cast<float>(whole.compliance * parts_);
       point.restitution = 0;

@@ -33,7 +33,7 @@ class LockedLane {
 
   /// @p line: the first of the row
   void LeaveAlone(int row, Line* line) const {
-    bool alone = LeaveSideAlone(row, pair_.a, FirstOfA(line), line + AngularOfA());
+    bool alone = LeaveSideAlone(row, pair_.a, FirstOfA(line), line + 3);
     if (pair_.b != kWorld)
       alone = LeaveSideAlone(row, pair_.b, FirstOfB(line), EndOf(line) - 3) || alone;
     if (alone) PutStep(block_.rows[row], line);
@@ -49,7 +49,6 @@ class LockedLane {
   Line* FirstOfB(Line* line) const {
     return block_.form == PairForm::kContact ? nullptr : line + 6;
   }
-  static constexpr int AngularOfA() { return 3; }
   Line* EndOf(Line* line) const { return line + simd::JacobianLines(block_.form); }
 
   bool LeaveSideAlone(int row, int body, Line* linear, Line* angular) const {

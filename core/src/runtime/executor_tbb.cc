@@ -25,6 +25,11 @@ class Job {
     owners_.fetch_add(1, std::memory_order_relaxed);
     state_.store(kWaiting, std::memory_order_release);
   }
+  /// oneTBB did not take it.
+  void TakeBack() {
+    state_.store(kDone, std::memory_order_relaxed);
+    Release();
+  }
   void RunAndRelease() {
     Run();
     Release();
@@ -71,7 +76,12 @@ class TbbExecutor final : public Executor {
   void Submit(void (*work)(void*), void* what) override {
     Job* const job = Free();
     job->Set(work, what);
-    tbb::this_task_arena::enqueue([job] { job->RunAndRelease(); });
+    try {
+      tbb::this_task_arena::enqueue([job] { job->RunAndRelease(); });
+    } catch (...) {
+      job->TakeBack();  // whoever asked takes back what it is about
+      throw;
+    }
   }
 
  private:
@@ -79,7 +89,7 @@ class TbbExecutor final : public Executor {
     const auto free =
         std::find_if(jobs_.begin(), jobs_.end(), [](Job* job) { return job->free(); });
     if (free != jobs_.end()) return *free;
-    jobs_.reserve(jobs_.size() + 1);
+    jobs_.reserve(jobs_.size() + 1);  // where there is no memory nothing is lost
     jobs_.push_back(new Job);
     return jobs_.back();
   }

@@ -71,6 +71,16 @@ TEST(Substeps, FallsAsBodiesFallInSoManySteps) {
   }
 }
 
+TEST(Substeps, DoNotReadTheComplianceOfWhatIsHard) {
+  Ball hard(-1), unread(-1);
+  hard.point.bias = unread.point.bias = 0.3f;
+  unread.point.compliance = 100;
+  hard.Solve(4);
+  unread.Solve(4);
+  EXPECT_EQ(unread.velocity.linear, hard.velocity.linear);
+  EXPECT_EQ(unread.mean.linear, hard.mean.linear);
+}
+
 TEST(Substeps, AddUpTheImpulsesOfTheirParts) {
   Ball ball(0);
   ball.Solve(5);
