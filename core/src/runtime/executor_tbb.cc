@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace cairn {
@@ -42,6 +44,7 @@ class Job {
   }
 
  private:
+  friend class Jobs;
   enum State { kDone, kWaiting, kRunning };
 
   /// Whoever comes first.
@@ -56,14 +59,49 @@ class Job {
     state_.store(kDone, std::memory_order_release);
     state_.notify_all();
   }
-  void Release() {
-    if (owners_.fetch_sub(1, std::memory_order_acq_rel) == 1) delete this;
-  }
+  void Release();
 
-  std::atomic<int> owners_ = 1, state_ = kDone;
+  std::atomic<int> owners_ = 0, state_ = kDone;
   void (*work_)(void*) = nullptr;
   void* what_ = nullptr;
+  Job* next_ = nullptr;  ///< that nobody has
 };
+
+/// All jobs of the process, used again and never freed: oneTBB drops what it has when the process
+/// ends without a word.
+class Jobs {
+ public:
+  static Jobs& OfProcess() {
+    static Jobs* const jobs = new Jobs;
+    return *jobs;
+  }
+
+  Job* Take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Job* job = first_;
+    if (job == nullptr) {
+      job = &all_.emplace_back();
+    } else {
+      first_ = job->next_;
+    }
+    job->owners_.store(1, std::memory_order_relaxed);
+    return job;
+  }
+  void Give(Job* job) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    job->next_ = first_;
+    first_ = job;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::deque<Job> all_;
+  Job* first_ = nullptr;  ///< that nobody has
+};
+
+void Job::Release() {
+  if (owners_.fetch_sub(1, std::memory_order_acq_rel) == 1) Jobs::OfProcess().Give(this);
+}
 
 /// Jobs go to the arena that the caller is in: a game's own, or that of its thread. One of the
 /// solver's would be one more for each solver, and oneTBB keeps them until a thread was in there.
@@ -90,7 +128,7 @@ class TbbExecutor final : public Executor {
         std::find_if(jobs_.begin(), jobs_.end(), [](Job* job) { return job->free(); });
     if (free != jobs_.end()) return *free;
     jobs_.reserve(jobs_.size() + 1);  // where there is no memory nothing is lost
-    jobs_.push_back(new Job);
+    jobs_.push_back(Jobs::OfProcess().Take());
     return jobs_.back();
   }
 
