@@ -1,20 +1,48 @@
 // SPDX-License-Identifier: MIT
 #include "worlds/merit.h"
 
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "cairn/detail/eigen.h"
 #include "measure/row_velocities.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
+#include "problem/locked_axes.h"
+#include "problem/whitening.h"
 
 namespace cairn::bench {
 namespace {
 
+bool IsLeftAlone(const Body& body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
+  WhitenedBody whitened;
+  Whiten(body, &whitened);
+  std::array<double, 6> g;
+  Eigen::Map<Eigen::Vector3d>(g.data()) = whitened.linear.cwiseProduct(linear);
+  Eigen::Map<Eigen::Vector3d>(g.data() + 3) = whitened.angular.transpose() * angular;
+  return LookAtLocked(body, linear.squaredNorm(), angular.squaredNorm(), g).alone;
+}
+
+/// Rows without the bodies with locked axes that they leave alone.
+std::vector<Row> RowsThatPush(const ContactProblem& problem) {
+  std::vector<Row> rows(problem.rows.begin(), problem.rows.end());
+  const auto look = [&problem](int* body, const auto& linear, const auto& angular) {
+    if (*body == kWorld || !HasLockedAxes(problem.bodies[*body])) return;
+    if (IsLeftAlone(problem.bodies[*body], View(linear), View(angular))) *body = kWorld;
+  };
+  for (Row& row : rows) {
+    look(&row.body_a, row.linear_a, row.angular_a);
+    look(&row.body_b, row.linear_b, row.angular_b);
+  }
+  return rows;
+}
+
 Audit AuditRows(const ContactProblem& problem, std::span<const double> x) {
   const std::vector<Velocity> free = FreeVelocities(problem.bodies);
+  const std::vector<Row> push = RowsThatPush(problem);
   std::vector<Velocity> change(problem.bodies.size());
-  Push(problem, x, change);
+  Push({.bodies = problem.bodies, .rows = push}, x, change);
 
   Audit worst;
   double most = -kInfinity;
@@ -22,8 +50,10 @@ Audit AuditRows(const ContactProblem& problem, std::span<const double> x) {
     double energy = 0, work = 0, turned = 0;
     for (const int i : island.rows) {
       const Row& row = problem.rows[i];
+      // what moves nothing asks for nothing
+      if (push[i].body_a == kWorld && push[i].body_b == kWorld) continue;
       const double asked = row.target - RowSpeed(row, free);
-      energy += 0.5 * x[i] * (RowSpeed(row, change) + row.compliance * x[i]);
+      energy += 0.5 * x[i] * (RowSpeed(push[i], change) + row.compliance * x[i]);
       work += asked * x[i];
       turned += std::abs(asked * x[i]);
     }

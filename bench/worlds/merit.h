@@ -10,7 +10,7 @@ namespace cairn::bench {
 /// What impulses x are worth on the island where they are worth least, against none at all [J]:
 ///   phi(x) = 1/2 |M^-1/2 J' x|^2 + 1/2 x' E x - (target - J v_free)' x,
 /// which every row lowers as far as its bounds let it. A result with phi(x) > 0 = phi(0) has put
-/// energy in.
+/// energy in. Bodies with locked axes are left out of rows that leave them alone (docs/solver.md).
 struct Audit {
   double merit = 0;  ///< phi(x) of that island.
   /// What rounding may make of it: kLeast, and kRounding of the energy that its impulses turn over,

@@ -54,15 +54,10 @@ void Prepare(btTypedConstraint* joint) {
 }
 
 /// A row that only turns moves a body with an angular factor if that answers at least this share of
-/// what it would without the factor. The core knows the inertia with its factor alone, and tells by
-/// itself what is rounding; frames of joints are turned by more than that.
-constexpr btScalar kLeastShare = btScalar(0.01);
-
-/// Whether half of a row that only turns leaves a body alone, about whose axis it is locked.
-bool IsLeftAlone(const btRigidBody& rigid, const btVector3& angular) {
-  const btVector3 free = angular * rigid.getAngularFactor(), none(0, 0, 0);
-  return HalfDiagonal(rigid, none, free) < kLeastShare * HalfDiagonal(rigid, none, angular);
-}
+/// what it would without the factor. The core knows the inertia with its factor alone.
+constexpr btScalar kLeastShare = btScalar(1e-3);
+/// From here on locks change nothing that matters, as of a hinge whose axis is that of a plane's.
+constexpr btScalar kWholeShare = btScalar(0.99);
 
 /// J v of one half of a row, with all that is known of v. Joints see the velocity of static bodies,
 /// too.
@@ -141,12 +136,12 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   result.a_moves = end_a.number != kWorld;
   result.b_moves = end_b.number != kWorld;
   result.rows = static_cast<int>(slots_.size());
-  result.written_out = form == ContactForm::kRows || !IsCompact();
   const auto motion = [this](int number) {
     return number == kWorld ? nullptr : &bodies_->motion(number);
   };
   const Ends ends{a, b, motion(end_a.number), motion(end_b.number), end_a.number, end_b.number};
-  LeaveLockedAlone(ends, damping);
+  LookAtLocked(ends, damping);
+  result.written_out = form == ContactForm::kRows || !IsCompact();
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
     const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .host = {.max_sweeps = max_sweeps}};
@@ -158,21 +153,32 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   return result;
 }
 
-void JointRowBuilder::LeaveLockedAlone(const Ends& ends, btScalar damping) {
-  const auto look = [&](const btRigidBody& rigid, const Motion* motion, auto angular_of) {
-    if (rigid.getAngularFactor() == btVector3(1, 1, 1)) return;
-    for (Slot& slot : slots_) {
-      const bool turns = ToVector(slot.linear_a).isZero() && ToVector(slot.linear_b).isZero();
-      btScalar* const angular = angular_of(&slot);
-      const btVector3 axis = ToVector(angular);
-      if (!turns || !IsLeftAlone(rigid, axis)) continue;
-      // the spin that it keeps is no longer seen
-      slot.error -= damping * HalfSpeed(rigid, motion, btVector3(0, 0, 0), axis);
-      std::fill_n(angular, 3, btScalar(0));
-    }
+void JointRowBuilder::LookAtLocked(const Ends& ends, btScalar damping) {
+  const btVector3 none(0, 0, 0);
+  const auto has_factor = [](const btRigidBody& rigid) {
+    return rigid.getAngularFactor() != btVector3(1, 1, 1);
   };
-  look(ends.a, ends.motion_a, [](Slot* slot) { return slot->angular_a; });
-  look(ends.b, ends.motion_b, [](Slot* slot) { return slot->angular_b; });
+  if (!has_factor(ends.a) && !has_factor(ends.b)) return;
+  for (Slot& slot : slots_) {
+    if (!ToVector(slot.linear_a).isZero() || !ToVector(slot.linear_b).isZero()) continue;
+    btScalar with = 0, without = 0;
+    const auto look = [&](const btRigidBody& rigid, const Motion* motion, btScalar* angular) {
+      const btVector3 axis = ToVector(angular);
+      const btScalar free = HalfDiagonal(rigid, none, axis * rigid.getAngularFactor());
+      const btScalar all = HalfDiagonal(rigid, none, axis);
+      if (free >= kLeastShare * all) {
+        with += free;
+        without += all;
+        return;
+      }
+      // it keeps its spin, which is no longer seen
+      slot.error -= damping * HalfSpeed(rigid, motion, none, axis);
+      std::fill_n(angular, 3, btScalar(0));
+    };
+    look(ends.a, ends.motion_a, slot.angular_a);
+    look(ends.b, ends.motion_b, slot.angular_b);
+    slot.share = with < kWholeShare * without ? with / without : btScalar(1);
+  }
 }
 
 btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info) {
@@ -187,6 +193,7 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSol
   Slot empty{};
   empty.lower = -SIMD_INFINITY;
   empty.upper = SIMD_INFINITY;
+  empty.share = 1;
   slots_.assign(std::max(0, size.m_numConstraintRows), empty);
   if (slots_.empty()) return 0;
   Slot& first = slots_[0];
@@ -220,9 +227,10 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSol
 }
 
 bool JointRowBuilder::IsCompact() const {
-  // the CFM of Bullet is also a step length
-  return slots_.size() <= Joint::kMostRows &&
-         std::ranges::all_of(slots_, [](const Slot& slot) { return slot.cfm == 0; });
+  // the CFM of Bullet is also a step length, and so is what locks leave of the diagonal
+  return slots_.size() <= Joint::kMostRows && std::ranges::all_of(slots_, [](const Slot& slot) {
+           return slot.cfm == 0 && slot.share == 1;
+         });
 }
 
 void JointRowBuilder::AppendCompact(const Ends& ends, int max_sweeps, btScalar damping) {
@@ -290,7 +298,8 @@ void JointRowBuilder::AppendRow(const Ends& ends, const Row& law, const Slot& sl
   row.angular_b = ToEigen(angular_b);
   row.lo = Bound(slot.lower);
   row.hi = Bound(slot.upper);
-  row.relaxation = Relaxation(1 + slot.cfm);  // Bullet's D leaves the cfm of a joint out
+  // Bullet's D leaves the cfm of a joint out, and the factors of bodies
+  row.relaxation = Relaxation((1 + slot.cfm) * slot.share);
 
   // most rows are rigid and push a mass: of their diagonal it is enough to know that there is one
   const btScalar pushed =

@@ -45,6 +45,7 @@ class JointRowBuilder {
   struct alignas(16) Slot {
     btScalar linear_a[4], angular_a[4], linear_b[4], angular_b[4];
     btScalar error, cfm, lower, upper;
+    btScalar share;  ///< Of the diagonal of a row that only turns: what angular factors leave.
   };
 
   /// The bodies of a joint. Motions of those that have a number, none for others.
@@ -59,8 +60,9 @@ class JointRowBuilder {
                         SweepLimits limits, ContactForm form);
   /// Asks the joint for its rows. Returns their damping.
   btScalar FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info);
-  /// Takes bodies out of rows that only turn, about axes that they are locked about.
-  void LeaveLockedAlone(const Ends& ends, btScalar damping);
+  /// Takes bodies out of rows that only turn, about axes that they are locked about, and finds
+  /// Slot::share.
+  void LookAtLocked(const Ends& ends, btScalar damping);
   bool IsCompact() const;
   static btScalar Diagonal(const Ends& ends, const Slot& slot);
   /// What the core does not see of J v: static bodies have no number there, and may have a

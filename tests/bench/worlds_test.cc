@@ -318,6 +318,23 @@ TEST(Audit, CountsMotionForcesAndCompliance) {
   EXPECT_NEAR(AuditEnergy(problem, std::vector<double>{x}).merit, 0.25 + 0.5 - 2, 1e-12);
 }
 
+// A body of locked height is not pushed up, whatever a row asks for; one that it does push beside
+// it answers: phi(x) = x^2 / 2 - 3 x.
+TEST(Audit, LeavesOutWhatIsLeftAlone) {
+  Body locked = Weighing(1);
+  locked.linear_factor = Eigen::Vector3d(1, 0, 1);
+  const std::vector<Body> bodies = {locked, Weighing(1)};
+  const Eigen::Vector3d leaning(1e-3, 1, 0);
+  const std::vector<Row> rows = {{.body_a = 0, .linear_a = leaning, .target = -5},
+                                 {.body_a = 0,
+                                  .body_b = 1,
+                                  .linear_a = leaning,
+                                  .linear_b = Eigen::Vector3d(0, 1, 0),
+                                  .target = 3}};
+  const ContactProblem problem{.bodies = bodies, .rows = rows};
+  EXPECT_NEAR(AuditEnergy(problem, std::vector<double>{100, 3}).merit, -4.5, 1e-12);
+}
+
 // Two islands, one of which gains what the other loses.
 TEST(Audit, LooksAtEachIslandAlone) {
   const std::vector<Body> bodies = {Weighing(1), Weighing(1)};

@@ -17,6 +17,7 @@ struct RowCounts {
   int joints = 0, normals = 0, frictions = 0, twists = 0;
   int points = 0;   ///< of contact that go to the core in manifolds
   int compact = 0;  ///< rows of joints that go to the core as such
+  int locked = 0;   ///< of joints that do not, of bodies with an angular factor
 };
 
 /// Expects that for every group of a substep the rows of FastGroup are those that Bullet's own

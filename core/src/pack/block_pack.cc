@@ -321,7 +321,7 @@ PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulse
   for (int block = first_block; block < first_block + count; ++block) {
     const PackResult result = PackBlock(block, impulses, blocks);
     if (result != PackResult::kDone) return result;
-    if (locked) LeaveLockedAlone(*this, block, blocks);
+    if (locked) ApplyLocks(*this, block, blocks);
     couple(plan.blocks()[block], blocks->data.data() + plan.blocks()[block].data);
   }
   return PackResult::kDone;

@@ -5,8 +5,9 @@
 
 namespace cairn {
 
-/// Takes bodies with locked axes out of those rows of a packed block that leave them alone; see
-/// IsLeftAlone(). A row that moves nothing then asks for nothing.
-void LeaveLockedAlone(const BlockPacker& packer, int block, BlockData* blocks);
+/// Takes bodies with locked axes out of those rows of a packed block that leave them alone, and
+/// puts the steps of those that do not; see LookAtLocked(). A row that moves nothing asks for
+/// nothing.
+void ApplyLocks(const BlockPacker& packer, int block, BlockData* blocks);
 
 }  // namespace cairn

@@ -30,9 +30,8 @@ static_assert(offsetof(ContactTwist, most_spinning) == simd::kMostSpinning * siz
 static_assert(sizeof(TwistImpulse) == simd::kTwistRows * sizeof(float));
 static_assert(Manifold::kTwistRows == simd::kTwistRows);
 
-/// The directions of a block: a point with friction has two rows or more.
+// a point with friction has two rows or more
 static_assert(simd::kDirectionLines <= 2 * 2);
-size_t DirectionsOf(const simd::PairBlock& block) { return 2 * size_t{block.x}; }
 
 const Manifold& ManifoldOf(const BlockPacker& packer, int block, int lane) {
   return packer.problem.manifolds[packer.plan.pair(block, lane).index];

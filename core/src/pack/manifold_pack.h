@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+
 #include "pack/block_pack.h"
 
 namespace cairn {
@@ -14,6 +16,9 @@ simd::ContactBody ContactBodyOf(const Body& body, const WhitenedBody& whitened,
 /// @pre the block is one of manifolds
 PackResult PackManifolds(const BlockPacker& packer, int block, const Impulses& start,
                          BlockData* blocks);
+
+/// Where the directions of a block of manifolds are in BlockData::directions.
+inline std::size_t DirectionsOf(const simd::PairBlock& block) { return 2 * std::size_t{block.x}; }
 
 /// Their impulses from its lines.
 void WriteManifolds(const BlockPacker& packer, int block, const BlockData& blocks,

@@ -18,24 +18,28 @@ Packer::Packer(const ContactProblem& problem, const Settings& settings)
   for (size_t i = 0; i < bodies_.size(); ++i) Whiten(problem.bodies[i], &bodies_[i]);
 }
 
-Vector6 Packer::WhitenRow(int body, const Eigen::Vector3d& linear,
-                          const Eigen::Vector3d& angular) const {
+Vector6 Packer::WhitenRow(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
+                          double* diagonal) const {
   Vector6 g{};
   if (body == kWorld) return g;
   Eigen::Map<Eigen::Vector3d>(g.data()) = bodies_[body].linear.cwiseProduct(linear);
   Eigen::Map<Eigen::Vector3d>(g.data() + 3) = bodies_[body].angular.transpose() * angular;
   const Body& of = problem_.bodies[body];
-  if (leaves_locked_ && HasLockedAxes(of) &&
-      IsLeftAlone(of, linear.squaredNorm(), angular.squaredNorm(), std::span<const double, 6>(g))) {
-    g = {};
+  if (leaves_locked_ && HasLockedAxes(of)) {
+    const LockedSide side = LookAtLocked(of, linear.squaredNorm(), angular.squaredNorm(),
+                                         std::span<const double, 6>(g));
+    if (side.alone) g = {};
+    *diagonal += side.extra;
   }
+  *diagonal += Dot(g, g);
   return g;
 }
 
 PackedRow Packer::PackRow(const Row& row) const {
   PackedRow packed;
-  packed.g_a = WhitenRow(row.body_a, row.linear_a, row.angular_a);
-  packed.g_b = WhitenRow(row.body_b, row.linear_b, row.angular_b);
+  packed.diagonal = 0;
+  packed.g_a = WhitenRow(row.body_a, row.linear_a, row.angular_a, &packed.diagonal);
+  packed.g_b = WhitenRow(row.body_b, row.linear_b, row.angular_b, &packed.diagonal);
   packed.a = row.body_a == kWorld ? 0 : local_[row.body_a];
   packed.b = row.body_b == kWorld ? 0 : local_[row.body_b];
 
@@ -49,7 +53,7 @@ PackedRow Packer::PackRow(const Row& row) const {
   subtract(row.body_b, row.linear_b, row.angular_b);
 
   packed.compliance = row.compliance;
-  packed.diagonal = Dot(packed.g_a, packed.g_a) + Dot(packed.g_b, packed.g_b) + row.compliance;
+  packed.diagonal += row.compliance;
   packed.step = packed.diagonal > 0 ? omega_ * row.relaxation / packed.diagonal : 0;
   packed.lo = row.lo;
   packed.hi = row.hi;

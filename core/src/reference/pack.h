@@ -21,7 +21,7 @@ struct PackedRow {
   int a, b;           ///< bodies of the island, counted from 1; 0 is everything that does not move
   double target;      ///< b - J (velocity without constraints)
   double compliance;  ///< E
-  double diagonal;    ///< d = |G|^2 + E
+  double diagonal;    ///< d = |G|^2 + E, and LockedSide::extra
   double step;        ///< relaxation / d, or 0 for a row that nothing can satisfy
   double lo, hi;
   double friction;
@@ -116,7 +116,9 @@ class Packer {
  private:
   PackedRow PackRow(const Row& row) const;
   Velocity VelocityOf(int body, const Vector6& u) const;
-  Vector6 WhitenRow(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) const;
+  /// Adds to the diagonal of the row.
+  Vector6 WhitenRow(int body, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular,
+                    double* diagonal) const;
 
   ContactProblem problem_;
   double omega_;

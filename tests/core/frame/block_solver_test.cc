@@ -79,6 +79,7 @@ class Oracle {
   void Relax(int index) {
     const Row& row = scene_.rows[index];
     double d = row.compliance, w = row.compliance * x_[index] - row.target;
+    double locked = 0;
     for (const auto& [body, linear, angular] :
          {std::tuple(row.body_a, row.linear_a, row.angular_a),
           std::tuple(row.body_b, row.linear_b, row.angular_b)}) {
@@ -86,13 +87,14 @@ class Oracle {
       const Body& b = scene_.bodies[body];
       d += View(linear).dot(b.inv_mass * View(b.linear_factor).cwiseProduct(View(linear)));
       d += View(angular).dot(View(b.inv_inertia) * View(angular));
+      locked += test::DeniedByLocks(b, linear);
       w += View(linear).dot(View(v_[body].linear)) + View(angular).dot(View(v_[body].angular));
     }
     const bool held = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold &&
                       row.parent != kNoRow && x_[row.parent] <= 0;
     if (held) return;
     // what nothing can satisfy asks for nothing, and stays inside its bounds
-    const double step = d > 0 ? omega_ * row.relaxation * w / d : 0;
+    const double step = d > 0 ? omega_ * row.relaxation * w / (d + locked) : 0;
     const double x = Project(index, x_[index] - step);
     Apply(row, x - x_[index]);
     x_[index] = x;

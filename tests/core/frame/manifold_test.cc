@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,8 +76,8 @@ std::vector<double> Side(const WhitenedBody& body, const Eigen::Vector3d& linear
 }
 
 /// The lines of a row as a kernel must have them, from the row itself.
-std::vector<double> LinesOf(const BlockFrame& frame, const Row& row, const Pair& pair,
-                            const simd::RowShape& shape) {
+std::vector<double> LinesOf(const BlockFrame& frame, std::span<const Body> bodies, const Row& row,
+                            const Pair& pair, const simd::RowShape& shape) {
   static const WhitenedBody kNobody;
   const auto body = [&](int i) { return i == kWorld ? kNobody : frame.bodies()[i]; };
   const bool straight = row.body_a == pair.a;
@@ -84,11 +85,12 @@ std::vector<double> LinesOf(const BlockFrame& frame, const Row& row, const Pair&
                           : Side(body(pair.a), row.linear_b, row.angular_b);
   const auto b = straight ? Side(body(pair.b), row.linear_b, row.angular_b)
                           : Side(body(pair.b), row.linear_a, row.angular_a);
-  double d = row.compliance, target = row.target;
+  double d = row.compliance, target = row.target, denied = 0;
   for (const double g : a) d += g * g;
   for (const double g : b) d += g * g;
   const auto subtract = [&](int i, const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
     if (i == kWorld) return;
+    denied += test::DeniedByLocks(bodies[i], linear);
     target -= linear.dot(View(body(i).free.linear)) + angular.dot(View(body(i).free.angular));
   };
   subtract(row.body_a, row.linear_a, row.angular_a);
@@ -102,7 +104,7 @@ std::vector<double> LinesOf(const BlockFrame& frame, const Row& row, const Pair&
   }
   if (pair.form == simd::PairForm::kJoint) lines.insert(lines.end(), b.begin(), b.end());
   lines.push_back(d > 0 ? target : 0);
-  lines.push_back(d > 0 ? 1 / d : 1);
+  lines.push_back(d > 0 ? 1 / (d + denied) : 1);
   if (shape.soft) lines.push_back(row.compliance);
   if (shape.parent >= 0) lines.push_back(row.friction);
   if (shape.bound == simd::RowBound::kCutFriction || shape.bound == simd::RowBound::kOwn)
@@ -143,7 +145,7 @@ TEST(Manifold, HasTheLinesOfItsRows) {
         for (int i = 0; i < block.row_count; ++i) {
           const int index = first + i;
           const Row& row = rows.rows[index];
-          const std::vector<double> lines = LinesOf(frame, row, pair, block.rows[i]);
+          const std::vector<double> lines = LinesOf(frame, scene.bodies, row, pair, block.rows[i]);
           for (const double expected : lines) {
             const double tolerance = kFloat * (1 + std::abs(expected));
             const double actual = (line++)->lane[lane];

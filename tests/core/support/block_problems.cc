@@ -150,6 +150,14 @@ Scene WithEveryLaw(Scene scene, std::uint64_t seed) {
   return scene;
 }
 
+double DeniedByLocks(const Body& body, const Vector3& linear) {
+  double denied = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (body.linear_factor[k] == 0) denied += body.inv_mass * linear[k] * linear[k];
+  }
+  return denied;
+}
+
 MovableBodies MovableOf(const Scene& scene) {
   MovableBodies movable;
   for (const Body& body : scene.bodies) movable.push_back(MobilityOf(body));

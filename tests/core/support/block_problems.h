@@ -28,6 +28,10 @@ Scene Heap(const PileOptions& options, std::uint64_t seed);
 /// is cut, bounds on both sides.
 Scene WithEveryLaw(Scene scene, std::uint64_t seed);
 
+/// What a body would answer along the axes that it is locked along [1/kg]: a row that does push it
+/// makes steps of 1 / (d + this).
+double DeniedByLocks(const Body& body, const Vector3& linear);
+
 MovableBodies MovableOf(const Scene& scene);
 /// @pre the scene is valid
 std::vector<RowKind> KindsOf(const Scene& scene, double omega);
