@@ -149,6 +149,11 @@ int Main(int count, char** arguments) {
   AddScenes(scaling_app, &scaling_scenes);
   AddFrames(scaling_app, &scaling.window.frame, &scaling.window.frames);
   AddThreads(scaling_app, &scaling.threads);
+  scaling_app
+      ->add_option("--gaps", scaling.gaps,
+                   "Also the so many longest stretches in which one thread is alone, cut for the "
+                   "last number of threads")
+      ->check(CLI::Range(0, 100));
 
   ThreadOptions mt{.window = {.scenes = {}, .frame = 60, .frames = 60}};
   CLI::App* const mt_app =

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -105,6 +106,53 @@ double MeasureBarrier() {
   return Microseconds(Span::Clock::now() - begin) / kStages;
 }
 
+/// What one thread does alone between two stages, or in a stage of one unit.
+struct Alone {
+  std::string after, before;
+  std::vector<double> us;  ///< of each frame, 0 where there was none
+  int times = 0;           ///< in the last frame
+};
+
+/// Adds what happened in @p frame, which is one more than before.
+void AddAlone(std::span<const Span> spans, size_t frame, std::vector<Alone>* alone) {
+  const auto add = [&](std::string_view after, std::string_view before, double us) {
+    auto at = std::find_if(alone->begin(), alone->end(), [&](const Alone& known) {
+      return known.after == after && known.before == before;
+    });
+    if (at == alone->end()) {
+      at = alone->insert(alone->end(), {std::string(after), std::string(before), {}, 0});
+    }
+    if (at->us.size() <= frame) at->times = 0;
+    at->us.resize(frame + 1, 0);
+    at->us[frame] += us;
+    ++at->times;
+  };
+  const Span* last = nullptr;
+  for (const Span& span : spans) {
+    if (span.units == 0) continue;
+    const std::string_view kind = Describe(span.label.kind);
+    add(last != nullptr ? Describe(last->label.kind) : "the begin", kind,
+        Microseconds(span.begin - (last != nullptr ? last->end : spans.front().begin)));
+    if (span.units == 1) add("one unit of", kind, Microseconds(span.end - span.begin));
+    last = &span;
+  }
+  if (last != nullptr) {
+    add(Describe(last->label.kind), "the end", Microseconds(spans.back().end - last->end));
+  }
+}
+
+void PrintAlone(std::vector<Alone> alone, size_t frames, int most, const std::string& what) {
+  for (Alone& stretch : alone) stretch.us.resize(frames, 0);
+  std::ranges::sort(alone, std::greater(),
+                    [](const Alone& stretch) { return cli::Median(stretch.us); });
+  cli::TextTable table = cli::TableOf({what + ": alone after", "before", "times", "us"});
+  for (const Alone& stretch : std::span(alone).first(std::min<size_t>(alone.size(), most))) {
+    table.rows.push_back({stretch.after, stretch.before, fmt::format("{}", stretch.times),
+                          fmt::format("{:.1f}", cli::Median(stretch.us))});
+  }
+  fmt::print("{}\n", table.ToMarkdown());
+}
+
 /// A world that Cairn drives.
 class World {
  public:
@@ -182,10 +230,12 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
       const double end_of_stage = barrier * std::log2(std::max(2, threads));
       std::vector<Forecast> forecasts;
       std::vector<double> measured;
+      std::vector<Alone> alone;
       for (int frame = 0; frame < first + options.window.frames; ++frame) {
         if (frame == first) cut.Record();
         const double whole = cut.Step(), took = can ? real.Step() : 0;
         if (frame < first) continue;
+        AddAlone(cut.spans(), forecasts.size(), &alone);
         forecasts.push_back(Predict(cut.spans(), whole, threads, end_of_stage));
         measured.push_back(took);
       }
@@ -203,6 +253,9 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
            median([](const Forecast& forecast) { return forecast.barriers; }),
            Milliseconds(predicted), can ? Milliseconds(cli::Median(measured)) : "-",
            std::isnan(one) ? "-" : fmt::format("{:.2f}", one / predicted), SerialParts(forecasts)});
+      if (options.gaps > 0 && threads == options.threads.back()) {
+        PrintAlone(alone, forecasts.size(), options.gaps, NameOf(scene));
+      }
     }
   }
   fmt::print("{}\n", table.ToMarkdown());

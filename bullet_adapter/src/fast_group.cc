@@ -99,7 +99,9 @@ void FastGroup::Learn(const btContactSolverInfo& info, const Report& report) {
   stiffness_.Learn(info.m_timeStep, problem(), impulses(), report);
 }
 
-bool FastGroup::FitsBullet() const { return bullet::FitsBullet(group_, bodies_, velocities_); }
+bool FastGroup::FitsBullet() const {
+  return bullet::FitsBullet(group_, bodies_, velocities_, threads_);
+}
 
 void FastGroup::Write(const btContactSolverInfo& info, std::span<const Velocity> means) {
   pushes_.Solve(info, bodies_.size());

@@ -3,12 +3,17 @@
 
 #include <LinearMath/btTransformUtil.h>
 
+#include <atomic>
+
 #include "conversions.h"
 #include "prefetch.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 namespace {
+
+/// As many are written by one thread at a time.
+constexpr int kBodiesOfPart = 256;
 
 /// A joint breaks at its bound, which sweeps in floats may round down.
 constexpr btScalar kFloatRounding = btScalar(1e-6);
@@ -55,18 +60,25 @@ void WritePush(const PushVelocity& push, const btContactSolverInfo& info, btRigi
 }  // namespace
 
 bool FitsBullet(const GroupProblem& group, const BodyTable& bodies,
-                std::span<const Velocity> changes) {
-  btScalar zero = 0;
-  for (const double impulse : group.impulses) zero += 0 * static_cast<btScalar>(impulse);
-  for (int i = 0; i < bodies.size(); ++i) {
-    if (!bodies.reacts(i)) continue;
-    const Motion& motion = bodies.motion(i);
-    const btScalar before = ZeroTimes(motion.velocity + motion.external_velocity) +
-                            ZeroTimes(motion.spin + motion.external_spin);
-    if (before != 0) continue;
-    zero += ZeroTimes(VelocityAfter(motion, changes[i])) + ZeroTimes(SpinAfter(motion, changes[i]));
-  }
-  return zero == 0;
+                std::span<const Velocity> changes, detail::Threads* threads) {
+  btScalar none = 0;
+  for (const double impulse : group.impulses) none += 0 * static_cast<btScalar>(impulse);
+  std::atomic<bool> fits = none == 0;
+  const auto look = [&](int first, int count) {
+    btScalar zero = 0;
+    for (int i = first; i < first + count; ++i) {
+      if (!bodies.reacts(i)) continue;
+      const Motion& motion = bodies.motion(i);
+      const btScalar before = ZeroTimes(motion.velocity + motion.external_velocity) +
+                              ZeroTimes(motion.spin + motion.external_spin);
+      if (before != 0) continue;
+      zero +=
+          ZeroTimes(VelocityAfter(motion, changes[i])) + ZeroTimes(SpinAfter(motion, changes[i]));
+    }
+    if (zero != 0) fits.store(false, std::memory_order_relaxed);
+  };
+  threads->For(bodies.size(), kBodiesOfPart, look, {SpanKind::kResults});
+  return fits;
 }
 
 void WriteContacts(const GroupProblem& group, const btContactSolverInfo& info) {
@@ -161,7 +173,6 @@ void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
 void WriteBodies(const BodyTable& bodies, std::span<const Velocity> changes,
                  const SplitImpulse& pushes, const btContactSolverInfo& info,
                  detail::Threads* threads) {
-  constexpr int kBodiesOfPart = 256;
   const auto write = [&](int first, int count) {
     WriteBodies(bodies, changes, pushes, info, first, first + count);
   };

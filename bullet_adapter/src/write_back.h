@@ -16,7 +16,7 @@ inline namespace CAIRN_BULLET_PRECISION {
 /// Whether Bullet's numbers, floats perhaps, hold the impulses of rows, and the motion of all
 /// bodies that came with one that they hold.
 bool FitsBullet(const GroupProblem& group, const BodyTable& bodies,
-                std::span<const Velocity> changes);
+                std::span<const Velocity> changes, detail::Threads* threads);
 
 /// Writes impulses to the contact points, if the solver mode has warm starts, as Bullet does: the
 /// second lateral one only where there are two directions of friction.

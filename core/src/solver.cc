@@ -373,7 +373,7 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   }
   if (!report->ok()) return;
   const auto means = in_parts ? substeps.means() : std::span<const Velocity>();
-  quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, report);
+  quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, &threads, report);
 }
 
 void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& impulses,

@@ -13,6 +13,13 @@ namespace {
 /// A count that a game does not reach, and that does not overflow.
 constexpr int kMost = std::numeric_limits<int>::max() / 2;
 
+/// As many are looked at by one thread at a time.
+constexpr int kBodiesOfPart = 512;
+
+int PartsOf(std::size_t bodies) {
+  return static_cast<int>((bodies + kBodiesOfPart - 1) / kBodiesOfPart);
+}
+
 /// Velocity at the end of the step, also where those of a problem count from its start.
 Velocity EndOf(const ContactProblem& problem, std::span<const Velocity> velocities, size_t body) {
   Velocity end = velocities[body];
@@ -27,33 +34,62 @@ Velocity EndOf(const ContactProblem& problem, std::span<const Velocity> velociti
 
 void QuietBodies::Reserve(std::size_t bodies) {
   if (counts_.size() < bodies) counts_.resize(bodies);
+  if (runs_.size() < bodies) runs_.resize(bodies);
+  const auto parts = static_cast<std::size_t>(PartsOf(bodies));
+  if (runs_of_.size() < parts) runs_of_.resize(parts);
+}
+
+int QuietBodies::LookAt(const ContactProblem& problem, std::span<const Velocity> velocities,
+                        std::span<const Velocity> means, double speed,
+                        std::span<const int> island_of, int first, int count) {
+  const bool moves_on = !means.empty() && problem.motions.empty();
+  Run* const runs = runs_.data() + first;
+  int found = 0;
+  for (int i = first; i < first + count; ++i) {
+    const int at = island_of[i];
+    Count& known = counts_[i];
+    if (at < 0 || known.id != problem.bodies[i].id) known = {.id = problem.bodies[i].id};
+    if (at < 0) continue;
+    const Velocity end = EndOf(problem, velocities, i);
+    const Velocity& mean = moves_on ? means[i] : end;
+    const double linear2 =
+        std::max(View(end.linear).squaredNorm(), View(mean.linear).squaredNorm());
+    const double angular2 =
+        std::max(View(end.angular).squaredNorm(), View(mean.angular).squaredNorm());
+    const bool is_quiet = linear2 < speed * speed && angular2 < speed * speed;
+    known.solves = is_quiet ? std::min(known.solves + 1, kMost) : 0;
+    if (found == 0 || runs[found - 1].island != at) runs[found++] = {at, 0, 0, kMost};
+    Run& run = runs[found - 1];
+    run.linear2 = std::max(run.linear2, linear2);
+    run.angular2 = std::max(run.angular2, angular2);
+    run.solves = std::min(run.solves, known.solves);
+  }
+  return found;
 }
 
 void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
-                       std::span<const Velocity> means, double speed, Report* report) {
+                       std::span<const Velocity> means, double speed, detail::Threads* threads,
+                       Report* report) {
+  const int bodies = static_cast<int>(problem.bodies.size());
+  counts_.resize(bodies);
+  const auto look = [&](int first, int count) {
+    runs_of_[first / kBodiesOfPart] =
+        LookAt(problem, velocities, means, speed, report->island_of, first, count);
+  };
+  threads->For(bodies, kBodiesOfPart, look, {SpanKind::kResults});
   for (IslandReport& island : report->islands) {
     // one of rows that push nothing has no body to be quiet
     island.quiet = island.bodies > 0 ? kMost : 0;
   }
-  counts_.resize(problem.bodies.size());
-  for (size_t i = 0; i < problem.bodies.size(); ++i) {
-    const int at = report->island_of[i];
-    Count& count = counts_[i];
-    if (at < 0 || count.id != problem.bodies[i].id) count = {.id = problem.bodies[i].id};
-    if (at < 0) continue;
-    IslandReport& island = report->islands[at];
-    const Velocity end = EndOf(problem, velocities, i);
-    const bool moves_on = !means.empty() && problem.motions.empty();
-    const Velocity& mean = moves_on ? means[i] : end;
-    const double linear = std::max(View(end.linear).squaredNorm(), View(mean.linear).squaredNorm());
-    const double angular =
-        std::max(View(end.angular).squaredNorm(), View(mean.angular).squaredNorm());
-    const bool is_quiet = linear < speed * speed && angular < speed * speed;
-    count.solves = is_quiet ? std::min(count.solves + 1, kMost) : 0;
-    // squares until all are seen
-    island.speed = std::max(island.speed, linear);
-    island.spin = std::max(island.spin, angular);
-    island.quiet = std::min(island.quiet, count.solves);
+  for (int part = 0; part < PartsOf(bodies); ++part) {
+    const Run* const runs = runs_.data() + part * kBodiesOfPart;
+    for (const Run& run : std::span(runs, runs_of_[part])) {
+      IslandReport& island = report->islands[run.island];
+      // squares until all are seen
+      island.speed = std::max(island.speed, run.linear2);
+      island.spin = std::max(island.spin, run.angular2);
+      island.quiet = std::min(island.quiet, run.solves);
+    }
   }
   for (IslandReport& island : report->islands) {
     island.speed = std::sqrt(island.speed);

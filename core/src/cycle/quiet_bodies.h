@@ -7,6 +7,7 @@
 
 #include "cairn/contact_problem.h"
 #include "cairn/detail/memory.h"
+#include "cairn/detail/threads.h"
 #include "cairn/report.h"
 
 namespace cairn {
@@ -19,10 +20,12 @@ class QuietBodies {
   void Reserve(std::size_t bodies);
   /// @param means  that bodies move by, where those are others, which are to be quiet, too; or none
   /// @param speed  Tuning::quiet_speed
+  /// @param threads  that help, if they are here
   /// @pre room is reserved, the report is that of the problem, solved; velocities are those that it
   /// ends with
   void Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
-            std::span<const Velocity> means, double speed, Report* report);
+            std::span<const Velocity> means, double speed, detail::Threads* threads,
+            Report* report);
   void Forget() { counts_.clear(); }
 
  private:
@@ -31,7 +34,21 @@ class QuietBodies {
     int solves = 0;
   };
 
+  /// Bodies of an island that follow each other.
+  struct Run {
+    int island;
+    double linear2, angular2;  ///< of the fastest
+    int solves;                ///< of the least quiet
+  };
+  /// Those of a part of the bodies into runs_, from the number of its first body on. Returns how
+  /// many.
+  int LookAt(const ContactProblem& problem, std::span<const Velocity> velocities,
+             std::span<const Velocity> means, double speed, std::span<const int> island_of,
+             int first, int count);
+
   Array<Count> counts_;  ///< by body
+  Array<Run> runs_;
+  Array<int> runs_of_;  ///< a part: so many
 };
 
 }  // namespace cairn
