@@ -112,6 +112,18 @@ bool FitsFloats(const Body& given, const WhitenedBody& body) {
 
 }  // namespace
 
+namespace {
+
+template <class T>
+void CopyInParts(std::span<const T> from, Crew* crew, Array<T>* to) {
+  to->resize(from.size());
+  InParts(static_cast<int>(from.size()), kRowsOfUnit, crew, [&](int first, int count) {
+    std::copy_n(from.begin() + first, count, to->begin() + first);
+  });
+}
+
+}  // namespace
+
 simd::PairWork BlockFrame::WorkOn(const Group& group, int first_block, int blocks) {
   // parts of a group are blocks of a large one, each a run
   const bool whole = blocks == group.blocks;
@@ -182,8 +194,8 @@ bool BlockFrame::MakePlan(const ContactProblem& problem, double omega,
   movable_.swap(movable_now_);
   omega_ = omega;
   planned_rows_ = problem.rows.size();
-  planned_joints_.assign(problem.joints.begin(), problem.joints.end());
-  planned_manifolds_.assign(problem.manifolds.begin(), problem.manifolds.end());
+  CopyInParts(problem.joints, crew, &planned_joints_);
+  CopyInParts(problem.manifolds, crew, &planned_manifolds_);
   ++plan_number_;
   row_kinds_.resize(planned_rows_);
   std::atomic<bool> valid{true};

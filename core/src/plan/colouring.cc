@@ -4,9 +4,13 @@
 #include <bit>
 #include <utility>
 
+#include "runtime/in_parts.h"
+
 namespace cairn {
 namespace {
 
+/// As many one thread looks at at a time.
+constexpr int kPairsOfPart = 2048;
 /// Names of bodies without an id begin here.
 constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
 
@@ -25,10 +29,9 @@ Colouring::Name Colouring::NameOf(const Pair& pair) const {
   return a > b ? Name{a, b, pair.contact} : Name{b, a, pair.contact};
 }
 
-int Colouring::FindKnown(const Name& name, size_t expected) {
+int Colouring::FindKnown(const Name& name, size_t expected) const {
   // pairs mostly come in the order of the last call
   if (expected < known_.size() && known_[expected].name == name) return static_cast<int>(expected);
-  if (!table_filled_) FillTable();
   const size_t mask = table_.size() - 1;
   for (size_t at = HashOf(name.a, name.b, name.contact) & mask;; at = (at + 1) & mask) {
     if (table_[at] == 0) return -1;
@@ -36,7 +39,7 @@ int Colouring::FindKnown(const Name& name, size_t expected) {
   }
 }
 
-void Colouring::FillTable() {
+void Colouring::Prepare() {
   size_t capacity = 64;
   while (capacity < 2 * known_.size()) capacity *= 2;
   table_.assign(capacity, 0);
@@ -46,7 +49,6 @@ void Colouring::FillTable() {
     while (table_[at] != 0) at = (at + 1) & (capacity - 1);
     table_[at] = static_cast<int>(i) + 1;
   }
-  table_filled_ = true;
 }
 
 int Colouring::Choose(const Pair& pair, int kind) {
@@ -63,16 +65,33 @@ void Colouring::Occupy(const Pair& pair, int kind, int colour) {
   if (pair.b != kWorld) masks_[pair.b].used[kind] |= bit;
 }
 
-void Colouring::Update(std::span<const Body> bodies, std::span<const Pair> pairs) {
+void Colouring::Recognise(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew) {
   body_names_.resize(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
     body_names_[i] = bodies[i].id != 0 ? bodies[i].id : kUnnamed + i;
   }
   masks_.assign(bodies.size(), {});
-  colours_.assign(pairs.size(), -1);
-  before_.assign(pairs.size(), -1);
-  KeepKnown(pairs);
+  colours_.resize(pairs.size());
+  before_.resize(pairs.size());
+  next_.resize(pairs.size());
+  if (table_.empty()) Prepare();
+  InParts(static_cast<int>(pairs.size()), kPairsOfPart, crew,
+          [&](int first, int count) { RecogniseSome(pairs, first, count); });
+}
 
+void Colouring::RecogniseSome(std::span<const Pair> pairs, int first, int count) {
+  // as if the pair before had just been found
+  const int last = first > 0 ? FindKnown(NameOf(pairs[first - 1]), first - 1) : -1;
+  size_t expected = last >= 0 ? static_cast<size_t>(last) + 1 : first;
+  for (int i = first; i < first + count; ++i) {
+    next_[i] = {NameOf(pairs[i]), Colour::kOverflow, false};
+    before_[i] = FindKnown(next_[i].name, expected);
+    if (before_[i] >= 0) expected = static_cast<size_t>(before_[i]) + 1;
+  }
+}
+
+void Colouring::Colour(std::span<const Pair> pairs) {
+  KeepKnown(pairs);
   // the new ones
   for (size_t i = 0; i < pairs.size(); ++i) {
     const int kind = KindOf(pairs[i]);
@@ -83,20 +102,17 @@ void Colouring::Update(std::span<const Body> bodies, std::span<const Pair> pairs
     next_[i].colour = colours_[i];
   }
   known_.swap(next_);
-  table_filled_ = false;
 }
 
 void Colouring::KeepKnown(std::span<const Pair> pairs) {
-  size_t expected = 0;
-  next_.clear();
   for (size_t i = 0; i < pairs.size(); ++i) {
-    const Name name = NameOf(pairs[i]);
-    next_.push_back({name, Colour::kOverflow, false});
-    const int known = FindKnown(name, expected);
-    if (known < 0 || std::exchange(known_[known].again, true)) continue;
-    before_[i] = known;
-    expected = static_cast<size_t>(known) + 1;
-
+    colours_[i] = -1;
+    const int known = before_[i];
+    // each once, even where bodies share a name
+    if (known < 0 || std::exchange(known_[known].again, true)) {
+      before_[i] = -1;
+      continue;
+    }
     // unless two bodies swapped names, or can no longer move
     const int kind = KindOf(pairs[i]), colour = known_[known].colour;
     const bool of_kind = colour != Colour::kOverflow && (colour - 1) / Colour::kOfKind == kind;

@@ -7,6 +7,7 @@
 #include "cairn/contact_problem.h"
 #include "cairn/detail/memory.h"
 #include "plan/pairs.h"
+#include "runtime/crew.h"
 
 namespace cairn {
 
@@ -28,7 +29,16 @@ class Colouring {
  public:
   /// The colour of each pair. Depends on the pairs of this and of earlier calls alone: those that
   /// are known keep theirs, new ones take the lowest that is free, in the order of @p pairs.
-  void Update(std::span<const Body> bodies, std::span<const Pair> pairs);
+  void Update(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew) {
+    Recognise(bodies, pairs, crew);
+    Colour(pairs);
+    Prepare();
+  }
+  /// Its parts: what several threads can do, what one can, and what nobody needs before the next
+  /// call.
+  void Recognise(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew);
+  void Colour(std::span<const Pair> pairs);
+  void Prepare();
 
   std::span<const int> colours() const { return colours_; }
   /// Where each pair was in the list of the last call, -1 for those that have just begun; no place
@@ -50,15 +60,16 @@ class Colouring {
   };
 
   Name NameOf(const Pair& pair) const;
-  int FindKnown(const Name& name, size_t expected);
-  void FillTable();
+  /// Names of pairs, and which known ones they may be, into next_ and before_.
+  void RecogniseSome(std::span<const Pair> pairs, int first, int count);
+  /// @param expected  where it is looked for first
+  int FindKnown(const Name& name, size_t expected) const;
   void KeepKnown(std::span<const Pair> pairs);
   int Choose(const Pair& pair, int kind);
   void Occupy(const Pair& pair, int kind, int colour);
 
   Array<Known> known_, next_;
   Array<int> table_;  ///< open addressing into known_: place + 1, or 0
-  bool table_filled_ = false;
   Array<std::uint64_t> body_names_;
   Array<int> colours_, before_;
   struct BodyMasks {

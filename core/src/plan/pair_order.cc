@@ -3,50 +3,103 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
+
+#include "runtime/in_parts.h"
 
 namespace cairn {
 namespace {
 
 /// Moving single pairs pays while fewer than one in so many has moved.
 constexpr size_t kShareOfMoved = 8;
+/// As many one thread looks at at a time.
+constexpr int kPairsOfPart = 4096;
 
 }  // namespace
 
-void PairOrder::Update(std::span<const PairKey> keys, std::span<const int> before,
-                       const PairKeyCounts& counts) {
+std::span<PairKey> PairOrder::Begin(int pairs) {
   keys_.swap(last_keys_);
-  keys_.assign(keys.begin(), keys.end());
-  moved_.clear();
-  kept_.assign(last_keys_.size(), -1);
-  for (size_t i = 0; i < keys_.size(); ++i) {
-    if (before[i] >= 0 && last_keys_[before[i]] == keys_[i]) {
-      kept_[before[i]] = static_cast<int>(i);
-    } else {
-      moved_.push_back(static_cast<int>(i));
-    }
-  }
+  keys_.resize(pairs);
+  return keys_;
+}
+
+void PairOrder::End(std::span<const int> before, const PairKeyCounts& counts, Crew* crew) {
+  FindMoved(before, crew);
   if (moved_.size() > keys_.size() / kShareOfMoved) {
     SortAll(counts);
   } else {
-    MoveSome();
+    MoveSome(crew);
   }
 }
 
-void PairOrder::MoveSome() {
+void PairOrder::FindMoved(std::span<const int> before, Crew* crew) {
+  const int pairs = static_cast<int>(keys_.size());
+  kept_.assign(last_keys_.size(), -1);
+  moved_.resize(keys_.size());
+  shares_.assign((pairs + kPairsOfPart - 1) / kPairsOfPart, {});
+  InParts(pairs, kPairsOfPart, crew, [&](int first, int count) {
+    int moved = first;
+    for (int i = first; i < first + count; ++i) {
+      if (before[i] >= 0 && last_keys_[before[i]] == keys_[i]) {
+        kept_[before[i]] = i;
+      } else {
+        moved_[moved++] = i;
+      }
+    }
+    shares_[first / kPairsOfPart].count = moved - first;
+  });
+  int moved = 0;
+  for (int share = 0; share < static_cast<int>(shares_.size()); ++share) {
+    const auto begin = moved_.begin() + share * kPairsOfPart;
+    const auto to = moved_.begin() + moved;
+    if (to != begin) std::copy(begin, begin + shares_[share].count, to);
+    moved += shares_[share].count;
+  }
+  moved_.resize(moved);
+}
+
+void PairOrder::MoveSome(Crew* crew) {
   const auto earlier = [this](int i, int j) {
     return keys_[i] != keys_[j] ? keys_[i] < keys_[j] : i < j;
   };
   std::sort(moved_.begin(), moved_.end(), earlier);
 
-  scratch_.clear();
-  auto moved = moved_.begin();
-  for (int last : order_) {
-    const int pair = kept_[last];
-    if (pair < 0) continue;
-    while (moved != moved_.end() && keys_[*moved] < keys_[pair]) scratch_.push_back(*moved++);
-    scratch_.push_back(pair);
+  const int pairs = static_cast<int>(order_.size());
+  shares_.assign((pairs + kPairsOfPart - 1) / kPairsOfPart, {});
+  InParts(pairs, kPairsOfPart, crew, [&](int first, int count) {
+    Share& share = shares_[first / kPairsOfPart];
+    for (const int last : std::span(order_).subspan(first, count)) {
+      if (kept_[last] < 0) continue;
+      ++share.count;
+      share.last = kept_[last];
+    }
+  });
+  // where each part begins, and behind which pair
+  int kept = 0, last_kept = -1;
+  for (Share& share : shares_) {
+    const Share own = std::exchange(share, {kept, last_kept});
+    kept += own.count;
+    if (own.last >= 0) last_kept = own.last;
   }
-  scratch_.insert(scratch_.end(), moved, moved_.end());
+  scratch_.resize(keys_.size());
+  const auto moved_before = [this](int pair) {
+    if (pair < 0) return moved_.begin();
+    return std::lower_bound(moved_.begin(), moved_.end(), pair,
+                            [this](int i, int of) { return keys_[i] < keys_[of]; });
+  };
+  InParts(pairs, kPairsOfPart, crew, [&](int first, int count) {
+    const Share& share = shares_[first / kPairsOfPart];
+    auto moved = moved_before(share.last);
+    auto to = scratch_.begin() + share.count + (moved - moved_.begin());
+    for (const int last : std::span(order_).subspan(first, count)) {
+      const int pair = kept_[last];
+      if (pair < 0) continue;
+      while (moved != moved_.end() && keys_[*moved] < keys_[pair]) *to++ = *moved++;
+      *to++ = pair;
+    }
+  });
+  const auto rest = moved_before(last_kept);
+  std::copy(rest, moved_.end(), scratch_.begin() + kept + (rest - moved_.begin()));
   order_.swap(scratch_);
 }
 

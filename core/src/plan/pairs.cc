@@ -2,10 +2,13 @@
 #include "plan/pairs.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <utility>
 
 #include "problem/islands.h"
+#include "runtime/in_parts.h"
 
 namespace cairn {
 namespace {
@@ -33,13 +36,19 @@ bool MayBound(const RowKind& parent, const RowKind& row) {
 
 }  // namespace
 
-int ShapeTable::Intern(std::span<const simd::RowShape> rows, RowSource source) {
+int ShapeTable::Find(std::span<const simd::RowShape> rows, RowSource source) const {
   // few shapes exist at a time, and neighbours mostly have the same: a search from the newest
   for (int shape = size() - 1; shape >= 0; --shape) {
     const auto known = this->rows(shape);
     if (sources_[shape] != source) continue;
     if (std::equal(known.begin(), known.end(), rows.begin(), rows.end())) return shape;
   }
+  return -1;
+}
+
+int ShapeTable::Intern(std::span<const simd::RowShape> rows, RowSource source) {
+  const int known = Find(rows, source);
+  if (known >= 0) return known;
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   begin_.push_back(static_cast<int>(rows_.size()));
   sources_.push_back(source);
@@ -130,16 +139,35 @@ int PairFinder::PairOf(const RowKind& kind, size_t index) {
 }
 
 bool PairFinder::Find(std::span<const RowKind> kinds, const ContactProblem& problem,
-                      const MovableBodies& movable, ShapeTable* shapes, PairList* list) {
+                      const MovableBodies& movable, Crew* crew, ShapeTable* shapes,
+                      PairList* list) {
   row_kinds_ = kinds;
   movable_ = &movable;
   list_ = list;
-  list_->pairs.clear();
+  size_t first = 0;
+  if (kinds.empty()) {
+    pair_of_row_.clear();
+    list_->rows.clear();
+    // a caller that changes settings of single joints must not fill the memory with shapes
+    if (shapes->size() > kMostShapes) shapes->Clear();
+  } else {
+    list_->pairs.clear();
+    if (!AddRows(kinds)) return false;
+    HandOutRows();
+    FindShapes(shapes);
+    first = list_->pairs.size();
+  }
+  list_->pairs.resize(first + problem.joints.size() + problem.manifolds.size());
+  AddAll(problem.joints, first, crew, shapes);
+  AddAll(problem.manifolds, first + problem.joints.size(), crew, shapes);
+  return true;
+}
+
+bool PairFinder::AddRows(std::span<const RowKind> kinds) {
   pair_of_row_.resize(kinds.size());
   size_t capacity = 64;
   while (capacity < 2 * kinds.size()) capacity *= 2;
   table_.assign(capacity, 0);
-
   for (size_t i = 0; i < kinds.size(); ++i) {
     const RowKind& kind = kinds[i];
     if (kind.parent != kNoRow) {
@@ -151,96 +179,108 @@ bool PairFinder::Find(std::span<const RowKind> kinds, const ContactProblem& prob
     if (pair.rows++ == 0) {
       pair.row_a = kind.a;
       pair.row_b = kind.b;
-      pair.form = FormOf(movable, pair);
+      pair.form = FormOf(*movable_, pair);
     }
     if (pair.form == simd::PairForm::kContact && !kind.opposite) {
       pair.form = simd::PairForm::kJoint;
     }
   }
-  HandOutRows();
-  FindShapes(shapes);
-  AddJoints(problem.joints, shapes);
-  AddManifolds(problem.manifolds, shapes);
   return true;
 }
 
-int PairFinder::ShapeOf(const Joint& joint, ShapeTable* shapes) {
-  scratch_.clear();
+namespace {
+
+/// Joints and manifolds of which one thread makes pairs at a time.
+constexpr int kSourcesOfPart = 1024;
+
+constexpr int kMostRowsOfPair =
+    std::max<int>(Joint::kMostRows, Manifold::kMostPoints*(1 + 2 + Manifold::kTwistRows));
+
+/// add(shape) for each row.
+template <class Add>
+void ListShapes(const Joint& joint, const Add& add) {
   for (int i = 0; i < joint.rows; ++i) {
-    scratch_.push_back({.bound = joint.is_bounded(i) ? simd::RowBound::kOwn : simd::RowBound::kFree,
-                        .soft = joint.soft,
-                        .angular = joint.is_angular(i),
-                        .max_sweeps = joint.host.max_sweeps});
-  }
-  return shapes->Intern(scratch_, RowSource::kJoint);
-}
-
-void PairFinder::AddJoints(std::span<const Joint> joints, ShapeTable* shapes) {
-  RecentShapes<Joint> recent;
-  for (size_t i = 0; i < joints.size(); ++i) {
-    const Joint& joint = joints[i];
-    const int shape = recent.Of(joint, [&] { return ShapeOf(joint, shapes); });
-    Add({.a = joint.body_a,
-         .b = joint.body_b,
-         .row_a = joint.body_a,
-         .row_b = joint.body_b,
-         .first = 0,
-         .rows = joint.rows,
-         .form = simd::PairForm::kJoint,
-         .contact = false,
-         .shape = shape,
-         .source = RowSource::kJoint,
-         .index = static_cast<int>(i)},
-        joint.opposite);
+    add({.bound = joint.is_bounded(i) ? simd::RowBound::kOwn : simd::RowBound::kFree,
+         .soft = joint.soft,
+         .angular = joint.is_angular(i),
+         .max_sweeps = joint.host.max_sweeps});
   }
 }
+template <class Add>
+void ListShapes(const Manifold& manifold, const Add& add) {
+  const auto add_all = [&](int of_point, simd::RowShape shape) {
+    shape.max_sweeps = manifold.host.max_sweeps;
+    for (int p = 0; p < manifold.points; ++p) {
+      if (shape.bound != simd::RowBound::kPush) shape.parent = static_cast<std::int16_t>(p);
+      for (int k = 0; k < of_point; ++k) add(shape);
+    }
+  };
+  add_all(1, {.bound = simd::RowBound::kPush, .soft = manifold.soft});
+  add_all(manifold.tangents, {.bound = simd::RowBound::kFriction});
+  const int twists = manifold.twists ? Manifold::kTwistRows : 0;
+  add_all(twists, {.bound = simd::RowBound::kCutFriction, .angular = true});
+}
 
-void PairFinder::Add(const Pair& added, bool opposite) {
+constexpr RowSource SourceOf(const Joint&) { return RowSource::kJoint; }
+constexpr RowSource SourceOf(const Manifold&) { return RowSource::kManifold; }
+int RowsOf(const Joint& joint) { return joint.rows; }
+int RowsOf(const Manifold& manifold) { return manifold.rows(); }
+bool PushesOppositely(const Joint& joint) { return joint.opposite; }
+bool PushesOppositely(const Manifold&) { return true; }
+
+}  // namespace
+
+template <class Source>
+void PairFinder::AddAll(std::span<const Source> sources, size_t first, Crew* crew,
+                        ShapeTable* shapes) {
+  const auto add = [&](int from, int count, const auto& shape_of) {
+    RecentShapes<Source> recent;
+    for (int i = from; i < from + count; ++i) {
+      const Source& source = sources[i];
+      const int shape = recent.Of(source, [&] { return shape_of(source); });
+      Put({.a = source.body_a,
+           .b = source.body_b,
+           .row_a = source.body_a,
+           .row_b = source.body_b,
+           .first = 0,
+           .rows = RowsOf(source),
+           .form = simd::PairForm::kJoint,
+           .contact = SourceOf(source) == RowSource::kManifold,
+           .shape = shape,
+           .source = SourceOf(source),
+           .index = i},
+          PushesOppositely(source), first + i);
+    }
+  };
+  const int count = static_cast<int>(sources.size());
+  if (count > kSourcesOfPart) {
+    // shapes that are new get their numbers in the order of the list
+    std::atomic<bool> all_known{true};
+    const auto find = [&](const Source& source) {
+      std::array<simd::RowShape, kMostRowsOfPair> rows;
+      size_t listed = 0;
+      ListShapes(source, [&](const simd::RowShape& row) { rows[listed++] = row; });
+      const int shape = shapes->Find(std::span(rows).first(listed), SourceOf(source));
+      if (shape < 0) all_known.store(false, std::memory_order_relaxed);
+      return shape;
+    };
+    InParts(count, kSourcesOfPart, crew, [&](int from, int of_part) { add(from, of_part, find); });
+    if (all_known) return;
+  }
+  add(0, count, [&](const Source& source) {
+    scratch_.clear();
+    ListShapes(source, [this](const simd::RowShape& row) { scratch_.push_back(row); });
+    return shapes->Intern(scratch_, SourceOf(source));
+  });
+}
+
+void PairFinder::Put(const Pair& put, bool opposite, size_t place) {
   const auto moves = [this](int body) { return body != kWorld && (*movable_)[body] != kUnmoved; };
-  Pair& pair = list_->pairs.emplace_back(added);
+  Pair& pair = list_->pairs[place] = put;
   if (!moves(pair.a)) pair.a = kWorld;
   if (!moves(pair.b)) pair.b = kWorld;
   if (pair.a == kWorld) std::swap(pair.a, pair.b);
   if (pair.b == kWorld || opposite) pair.form = FormOf(*movable_, pair);
-}
-
-int PairFinder::ShapeOf(const Manifold& manifold, ShapeTable* shapes) {
-  scratch_.assign(manifold.points, {.bound = simd::RowBound::kPush,
-                                    .soft = manifold.soft,
-                                    .max_sweeps = manifold.host.max_sweeps});
-  for (int p = 0; p < manifold.points; ++p) {
-    scratch_.resize(scratch_.size() + manifold.tangents, {.bound = simd::RowBound::kFriction,
-                                                          .parent = static_cast<std::int16_t>(p),
-                                                          .max_sweeps = manifold.host.max_sweeps});
-  }
-  for (int p = 0; p < manifold.points && manifold.twists; ++p) {
-    scratch_.resize(scratch_.size() + Manifold::kTwistRows,
-                    {.bound = simd::RowBound::kCutFriction,
-                     .angular = true,
-                     .parent = static_cast<std::int16_t>(p),
-                     .max_sweeps = manifold.host.max_sweeps});
-  }
-  return shapes->Intern(scratch_, RowSource::kManifold);
-}
-
-void PairFinder::AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes) {
-  RecentShapes<Manifold> recent;
-  for (size_t i = 0; i < manifolds.size(); ++i) {
-    const Manifold& manifold = manifolds[i];
-    const int shape = recent.Of(manifold, [&] { return ShapeOf(manifold, shapes); });
-    Add({.a = manifold.body_a,
-         .b = manifold.body_b,
-         .row_a = manifold.body_a,
-         .row_b = manifold.body_b,
-         .first = 0,
-         .rows = manifold.rows(),
-         .form = simd::PairForm::kJoint,
-         .contact = true,
-         .shape = shape,
-         .source = RowSource::kManifold,
-         .index = static_cast<int>(i)},
-        true);
-  }
 }
 
 void PairFinder::HandOutRows() {

@@ -6,6 +6,7 @@
 #include "cairn/contact_problem.h"
 #include "cairn/detail/memory.h"
 #include "plan/row_kind.h"
+#include "runtime/crew.h"
 #include "simd/pairs/pair_block.h"
 
 namespace cairn {
@@ -40,6 +41,8 @@ class ShapeTable {
  public:
   /// The number of the shape.
   int Intern(std::span<const simd::RowShape> rows, RowSource source);
+  /// The number of a shape that is there, or -1.
+  int Find(std::span<const simd::RowShape> rows, RowSource source) const;
   std::span<const simd::RowShape> rows(int shape) const;
   /// Lines of all rows of the shape.
   int lines(simd::PairForm form, int shape) const;
@@ -80,16 +83,17 @@ class PairFinder {
   /// earlier one of the same bodies, which has none itself.
   /// @pre joints and manifolds are valid
   [[nodiscard]] bool Find(std::span<const RowKind> kinds, const ContactProblem& problem,
-                          const MovableBodies& movable, ShapeTable* shapes, PairList* list);
+                          const MovableBodies& movable, Crew* crew, ShapeTable* shapes,
+                          PairList* list);
 
  private:
-  void AddJoints(std::span<const Joint> joints, ShapeTable* shapes);
-  int ShapeOf(const Joint& joint, ShapeTable* shapes);
-  void AddManifolds(std::span<const Manifold> manifolds, ShapeTable* shapes);
-  /// Appends the pair that a joint or a manifold is. @p opposite: its rows push with opposite
-  /// forces
-  void Add(const Pair& pair, bool opposite);
-  int ShapeOf(const Manifold& manifold, ShapeTable* shapes);
+  /// False as Find().
+  bool AddRows(std::span<const RowKind> kinds);
+  /// Those of all joints or manifolds, from place @p first of the list on.
+  template <class Source>
+  void AddAll(std::span<const Source> sources, size_t first, Crew* crew, ShapeTable* shapes);
+  /// The pair that a joint or a manifold is. @p opposite: its rows push with opposite forces
+  void Put(const Pair& pair, bool opposite, size_t place);
   int PairOf(const RowKind& kind, size_t index);
   int Look(int a, int b, bool contact);
   void HandOutRows();

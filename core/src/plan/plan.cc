@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cairn/detail/prefetch.h"
 #include "runtime/in_parts.h"
 
 namespace cairn {
@@ -29,6 +30,9 @@ constexpr int kOpenRuns = 8;
 
 bool IsLarge(const PlannedIsland& island) { return island.rows > kGroupRows; }
 
+/// As many one thread has at a time while a plan is made.
+constexpr int kPairsOfPart = 2048, kRunsOfPart = 128;
+
 constexpr int kForms = 3;
 
 /// What the rows of a pair look like in a block.
@@ -39,16 +43,21 @@ int KindOf(const Pair& pair) { return pair.shape * kForms + static_cast<int>(pai
 bool Plan::Make(const ContactProblem& problem, std::span<const RowKind> kinds,
                 const MovableBodies& movable, Crew* crew) {
   const std::span<const Body> bodies = problem.bodies;
-  if (!pair_finder_.Find(kinds, problem, movable, &shapes_, &list_)) return false;
+  if (!pair_finder_.Find(kinds, problem, movable, crew, &shapes_, &list_)) return false;
+  colouring_.Recognise(bodies, list_.pairs, crew);
   // neither needs the other
   ForUnits(2, crew, [&](int half) {
-    if (half == 0) return colouring_.Update(bodies, list_.pairs);
+    if (half == 0) return colouring_.Colour(list_.pairs);
     FindIslands(static_cast<int>(bodies.size()));
     FindGroups();
   });
-  SortPairs();
-  GiveSlots(bodies.size());
-  FillBlocks();
+  SortPairs(crew);
+  ForUnits(3, crew, [&](int third) {
+    if (third == 0) return GiveSlots(bodies.size());
+    if (third == 1) return DraftAllRuns();
+    colouring_.Prepare();
+  });
+  FillBlocks(crew);
   FindStages();
   return true;
 }
@@ -75,14 +84,25 @@ void Plan::FindIslands(int bodies) {
   // pairs that nothing can move for are an island of their own, the last
   island_of_pair_.resize(list_.pairs.size());
   const int attached = static_cast<int>(islands_.size());
+  // neighbours are mostly of the same: what one of them waits for is kept at hand
+  int last = -1, rows = 0;
+  bool joints = false;
+  const auto add = [&] {
+    if (last < 0) return;
+    islands_[last].rows += std::exchange(rows, 0);
+    islands_[last].joints |= std::exchange(joints, false);
+  };
   for (size_t i = 0; i < list_.pairs.size(); ++i) {
     const Pair& pair = list_.pairs[i];
     const int island = pair.a == kWorld ? attached : island_of[pair.a];
     if (island == static_cast<int>(islands_.size())) islands_.emplace_back();
-    islands_[island].rows += pair.rows;
-    islands_[island].joints = islands_[island].joints || joints_of_shape_[pair.shape] != 0;
+    if (island != last) add();
+    last = island;
+    rows += pair.rows;
+    joints |= joints_of_shape_[pair.shape] != 0;
     island_of_pair_[i] = island;
   }
+  add();
 }
 
 void Plan::FindGroups() {
@@ -122,18 +142,23 @@ void Plan::FindGroups() {
   }
 }
 
-void Plan::SortPairs() {
-  keys_.resize(list_.pairs.size());
-  for (size_t i = 0; i < keys_.size(); ++i) {
-    const int colour = colouring_.colours()[i];
-    keys_[i] = {.group = islands_[island_of_pair_[i]].group,
-                .colour = colour,
-                .shape = colour == Colour::kOverflow ? 0 : KindOf(list_.pairs[i])};
-  }
-  pair_order_.Update(keys_, colouring_.before(),
-                     {.groups = static_cast<int>(groups_.size()),
-                      .colours = Colour::kCount,
-                      .shapes = shapes_.size() * kForms});
+void Plan::SortPairs(Crew* crew) {
+  const int pairs = static_cast<int>(list_.pairs.size());
+  const std::span<PairKey> keys = pair_order_.Begin(pairs);
+  InParts(pairs, kPairsOfPart, crew, [&](int first, int count) {
+    for (int i = first; i < first + count; ++i) {
+      const int colour = colouring_.colours()[i];
+      keys[i] = {.group = islands_[island_of_pair_[i]].group,
+                 .colour = colour,
+                 .shape = colour == Colour::kOverflow ? 0 : KindOf(list_.pairs[i])};
+    }
+  });
+  pair_order_.End(colouring_.before(),
+                  {.groups = static_cast<int>(groups_.size()),
+                   .colours = Colour::kCount,
+                   .shapes = shapes_.size() * kForms},
+                  crew);
+  keys_ = keys;
   order_.assign(pair_order_.order().begin(), pair_order_.order().end());
 }
 
@@ -151,7 +176,10 @@ void Plan::GiveSlots(size_t bodies) {
   slot_of_body_.assign(bodies, 0);
   body_of_slot_.assign(1, kWorld);
   for (Group& group : groups_) group.slots = 0;
-  for (int i : order_) {
+  constexpr size_t kAhead = 8;
+  for (size_t at = 0; at < order_.size(); ++at) {
+    if (at + kAhead < order_.size()) Prefetch(&list_.pairs[order_[at + kAhead]], sizeof(Pair));
+    const int i = order_[at];
     const Pair& pair = list_.pairs[i];
     const int before = static_cast<int>(body_of_slot_.size());
     if (pair.a != kWorld) SlotOf(pair.a);
@@ -191,19 +219,18 @@ void Plan::AddBlock(int pair) {
   block.x = static_cast<std::uint32_t>(x_lines_);
   data_lines_ += simd::PairLines(of.form) + shapes_.lines(of.form, of.shape);
   x_lines_ += of.rows;
-  pair_of_lane_.resize(blocks_.size() * kLanes, -1);
-  island_of_lane_.resize(blocks_.size() * kLanes, -1);
 }
 
-void Plan::AddLane(int pair, int index) {
-  const Pair& of = list_.pairs[pair];
-  simd::PairBlock& block = blocks_[index];
-  const int lane = index * kLanes + block.lanes;
-  pair_of_lane_[lane] = pair;
-  island_of_lane_[lane] = island_of_pair_[pair];
-  block.a[block.lanes] = of.a == kWorld ? unmoved_slot_++ : slot_of_body_[of.a];
-  block.b[block.lanes] = of.b == kWorld ? 0 : slot_of_body_[of.b];
-  ++block.lanes;
+void Plan::FillLanes(const Draft& draft, const simd::LaneRun& run) {
+  simd::PairBlock& block = blocks_[run.block];
+  for (int i = 0; i < draft.lanes; ++i) {
+    const int pair = draft.pairs[i], lane = run.first + i;
+    const Pair& of = list_.pairs[pair];
+    pair_of_lane_[run.block * kLanes + lane] = pair;
+    island_of_lane_[run.block * kLanes + lane] = island_of_pair_[pair];
+    block.a[lane] = of.a == kWorld ? draft.unmoved_slot + i : slot_of_body_[of.a];
+    block.b[lane] = of.b == kWorld ? 0 : slot_of_body_[of.b];
+  }
 }
 
 Plan::Draft& Plan::AddDraft(int pair) {
@@ -231,10 +258,10 @@ Plan::Draft* Plan::FindOpenDraft(int index, size_t first_draft) {
   return nullptr;
 }
 
-void Plan::DraftOverflow(std::span<const int> pairs) {
+void Plan::DraftOverflow() {
   int island = -1;
   size_t first_draft = 0;
-  for (const int pair : pairs) {
+  for (const int pair : overflow_) {
     if (std::exchange(island, island_of_pair_[pair]) != island) first_draft = drafts_.size();
     Draft* const open = FindOpenDraft(pair, first_draft);
     Draft& draft = open != nullptr ? *open : AddDraft(pair);
@@ -242,20 +269,20 @@ void Plan::DraftOverflow(std::span<const int> pairs) {
   }
 }
 
-/// Those of a group, whose pairs begin at @p i in their order. Returns where they end.
+/// Those of a group, whose pairs begin at @p i in their order, behind the others. Returns where
+/// they end.
 size_t Plan::DraftRuns(int group, size_t i) {
   const auto of_group = [&](size_t at) {
     return at < order_.size() && keys_[order_[at]].group == group;
   };
-  drafts_.clear();
   const size_t begin = i;
   while (of_group(i) && keys_[order_[i]].colour == Colour::kOverflow) ++i;
   // island by island, each as if it were alone
-  const std::span<int> overflow(order_.data() + begin, i - begin);
-  std::sort(overflow.begin(), overflow.end(), [this](int a, int b) {
+  overflow_.assign(order_.begin() + begin, order_.begin() + i);
+  std::sort(overflow_.begin(), overflow_.end(), [this](int a, int b) {
     return std::pair(island_of_pair_[a], a) < std::pair(island_of_pair_[b], b);
   });
-  DraftOverflow(overflow);
+  DraftOverflow();
 
   // a run ends with its colour, its shape, or full
   PairKey key{};  // that of no pair with a colour
@@ -281,40 +308,53 @@ int Plan::FindRoom(const Draft& draft, bool small) {
   return block;
 }
 
-void Plan::PlaceRuns(bool small) {
+void Plan::DraftAllRuns() {
+  drafts_.clear();
+  size_t i = 0;
+  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
+    groups_[g].first_run = static_cast<int>(drafts_.size());
+    i = DraftRuns(g, i);
+    groups_[g].runs = static_cast<int>(drafts_.size()) - groups_[g].first_run;
+  }
+}
+
+void Plan::PlaceRuns(const Group& group) {
+  const bool small = group.rows <= kGroupRows;
   open_blocks_.assign(static_cast<size_t>(shapes_.size()) * kForms, -1);
-  for (const Draft& draft : drafts_) {
+  int unmoved_slot = group.first_slot;
+  for (Draft& draft : std::span(drafts_).subspan(group.first_run, group.runs)) {
     const int block = FindRoom(draft, small);
     runs_.push_back({.block = block,
                      .first = static_cast<std::int16_t>(blocks_[block].lanes),
                      .lanes = static_cast<std::int16_t>(draft.lanes),
                      .like_next = false});
     colour_of_run_.push_back(draft.colour);
-    for (int lane = 0; lane < draft.lanes; ++lane) AddLane(draft.pairs[lane], block);
+    blocks_[block].lanes += draft.lanes;
+    draft.unmoved_slot = unmoved_slot;
+    unmoved_slot += draft.lanes;
   }
 }
 
-void Plan::FillBlocks() {
+void Plan::FillBlocks(Crew* crew) {
   blocks_.clear();
   runs_.clear();
   pair_of_lane_.clear();
   island_of_lane_.clear();
   colour_of_run_.clear();
   data_lines_ = x_lines_ = 0;
-  size_t i = 0;
-  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
-    Group& group = groups_[g];
+  for (Group& group : groups_) {
     group.first_block = static_cast<int>(blocks_.size());
-    group.first_run = static_cast<int>(runs_.size());
     group.first_x = x_lines_;
-    unmoved_slot_ = group.first_slot;
-    i = DraftRuns(g, i);
-    PlaceRuns(group.rows <= kGroupRows);
+    PlaceRuns(group);
     group.blocks = static_cast<int>(blocks_.size()) - group.first_block;
-    group.runs = static_cast<int>(runs_.size()) - group.first_run;
     group.x_lines = x_lines_ - group.first_x;
     FindAlike(group);
   }
+  pair_of_lane_.resize(blocks_.size() * kLanes, -1);
+  island_of_lane_.resize(blocks_.size() * kLanes, -1);
+  InParts(static_cast<int>(runs_.size()), kRunsOfPart, crew, [this](int first, int count) {
+    for (int run = first; run < first + count; ++run) FillLanes(drafts_[run], runs_[run]);
+  });
   ListLanes();
 }
 

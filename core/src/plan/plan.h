@@ -111,24 +111,26 @@ class Plan {
  private:
   void FindIslands(int bodies);
   void FindGroups();
-  void SortPairs();
+  void SortPairs(Crew* crew);
   /// Pairs that are relaxed at a time: alike, of one colour, and sharing no body.
   struct Draft {
     int colour = 0, lanes = 0;
+    int unmoved_slot = 0;  ///< of the first, where nothing can move for them
     int pairs[simd::kLanes];
   };
-  void FillBlocks();
+  void DraftAllRuns();
   size_t DraftRuns(int group, size_t first);
-  void DraftOverflow(std::span<const int> pairs);
+  void DraftOverflow();
   Draft& AddDraft(int pair);
   Draft* FindOpenDraft(int pair, size_t first_draft);
   bool Shares(const Draft& draft, const Pair& pair) const;
-  void PlaceRuns(bool small);
+  void FillBlocks(Crew* crew);
+  void PlaceRuns(const Group& group);
   int FindRoom(const Draft& draft, bool small);
   void FindAlike(const Group& group);
   void ListLanes();
   void AddBlock(int pair);
-  void AddLane(int pair, int block);
+  void FillLanes(const Draft& draft, const simd::LaneRun& run);
   void GiveSlots(size_t bodies);
   int SlotOf(int body);
   void FindStages();
@@ -154,21 +156,21 @@ class Plan {
   Array<Group> groups_;
 
   PairOrder pair_order_;
-  Array<PairKey> keys_;
-  Array<int> order_;  ///< pairs in the order of a sweep
+  std::span<const PairKey> keys_;  ///< of pair_order_
+  Array<int> order_;               ///< pairs in the order of a sweep
   Array<simd::PairBlock> blocks_;
   Array<simd::LaneRun> runs_;
   Array<int> pair_of_lane_, island_of_lane_;
   Array<int> lanes_of_islands_, lanes_begin_;  ///< of those that share a group
   Array<int> colour_of_run_;
-  Array<Draft> drafts_;     ///< of a group
+  Array<Draft> drafts_;     ///< of all runs
+  Array<int> overflow_;     ///< pairs of a group that have no colour
   Array<int> open_blocks_;  ///< of small islands: the last with room for more, by KindOf(), or -1
   Array<int> slot_of_body_, body_of_slot_;
   Array<Unit> units_;
   Array<Stage> stages_;
   Array<Phase> phases_;
   int data_lines_ = 0, x_lines_ = 0;
-  int unmoved_slot_ = 0;  ///< next one for a pair that cannot move
 };
 
 }  // namespace cairn

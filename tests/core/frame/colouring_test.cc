@@ -39,7 +39,8 @@ constexpr int FirstOf(int kind) { return 1 + kind * Colour::kOfKind; }
 
 std::vector<int> ColoursOf(Colouring* colouring, const std::vector<Body>& bodies,
                            const Pairs& pairs) {
-  colouring->Update(bodies, pairs);
+  Crew alone(1);
+  colouring->Update(bodies, pairs, &alone);
   return {colouring->colours().begin(), colouring->colours().end()};
 }
 
@@ -213,9 +214,12 @@ TEST(Colours, OfBodiesWithoutNamesGoByTheirPlace) {
 TEST(Colouring, SaysWhereEachPairWasBefore) {
   const std::vector<Body> bodies = Named(6);
   Colouring colouring;
-  colouring.Update(bodies, Pairs{Contact(0, 1), Contact(1, 2), Joint(1, 2), Contact(3, kWorld)});
+  Crew alone(1);
+  colouring.Update(bodies, Pairs{Contact(0, 1), Contact(1, 2), Joint(1, 2), Contact(3, kWorld)},
+                   &alone);
   EXPECT_EQ(std::vector<int>(4, -1), Ints(colouring.before()));
-  colouring.Update(bodies, Pairs{Contact(3, kWorld), Contact(4, 5), Contact(2, 1), Joint(1, 2)});
+  colouring.Update(bodies, Pairs{Contact(3, kWorld), Contact(4, 5), Contact(2, 1), Joint(1, 2)},
+                   &alone);
   EXPECT_EQ((std::vector<int>{3, -1, 1, 2}), Ints(colouring.before()));
 }
 

@@ -27,14 +27,14 @@ class Named {
 
   /// The names in the order of a sweep.
   std::vector<int> Update(const std::vector<Entry>& entries) {
-    std::vector<PairKey> keys;
     std::vector<int> before;
-    for (const Entry& entry : entries) {
-      keys.push_back(entry.key);
+    const std::span<PairKey> keys = order_.Begin(static_cast<int>(entries.size()));
+    for (size_t i = 0; const Entry& entry : entries) {
+      keys[i++] = entry.key;
       const auto known = places_.find(entry.name);
       before.push_back(known == places_.end() ? -1 : known->second);
     }
-    order_.Update(keys, before, kCounts);
+    order_.End(before, kCounts, &crew_);
     places_.clear();
     std::vector<int> names;
     for (int place : order_.order()) names.push_back(entries[place].name);
@@ -43,6 +43,7 @@ class Named {
   }
 
  private:
+  Crew crew_{3};
   PairOrder order_;
   std::map<int, int> places_;
 };
@@ -95,6 +96,60 @@ TEST(PairOrder, MovesAPairThatLooksDifferentNow) {
   std::erase(expected, 7);
   expected.push_back(7);
   EXPECT_EQ(named.Update(entries), expected);
+}
+
+/// The order that few moved pairs lead to, as PairOrder says it: those that are kept stay, the
+/// others go behind all of their key.
+std::vector<int> Moved(const std::vector<int>& names, const std::map<int, PairKey>& keys_before,
+                       const std::vector<Named::Entry>& entries) {
+  std::map<int, PairKey> keys;
+  for (const Named::Entry& entry : entries) keys[entry.name] = entry.key;
+  const auto kept = [&](int name) {
+    const auto now = keys.find(name);
+    const auto before = keys_before.find(name);
+    return now != keys.end() && before != keys_before.end() && now->second == before->second;
+  };
+  std::vector<int> order;
+  for (const int name : names) {
+    if (kept(name)) order.push_back(name);
+  }
+  for (const Named::Entry& entry : entries) {
+    if (!kept(entry.name)) order.push_back(entry.name);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return keys.at(a) < keys.at(b); });
+  return order;
+}
+
+TEST(PairOrder, OfManyPairsIsThatOfOneThread) {
+  std::mt19937 random(3);
+  const auto below = [&random](int most) { return static_cast<int>(random() % most); };
+  const auto any_key = [&] { return PairKey{below(2), below(5), below(3)}; };
+  Named named;
+  std::vector<Named::Entry> entries;
+  int next = 0;
+  while (next < 30000) entries.push_back({next++, any_key()});
+  std::vector<int> names = named.Update(entries);
+  for (const int events : {0, 1, 100, 3000, 200, 1000}) {
+    std::map<int, PairKey> keys_before;
+    for (const Named::Entry& entry : entries) keys_before[entry.name] = entry.key;
+    for (int event = 0; event < events; ++event) {
+      const int at = below(static_cast<int>(entries.size()));
+      if (event % 3 == 0) entries[at].key = any_key();
+      if (event % 3 == 1) entries[at] = {next++, any_key()};
+      if (event % 3 == 2) entries.erase(entries.begin() + at);
+    }
+    const std::vector<int> expected = Moved(names, keys_before, entries);
+    names = named.Update(entries);
+    EXPECT_EQ(names, expected) << events;
+  }
+  // none is left of a whole part
+  std::map<int, PairKey> keys_before;
+  for (const Named::Entry& entry : entries) keys_before[entry.name] = entry.key;
+  std::erase_if(entries, [](const Named::Entry& entry) { return entry.key.group == 0; });
+  entries.push_back({next++, {0, 0, 0}});
+  entries.push_back({next++, {1, 9, 5}});
+  EXPECT_EQ(named.Update(entries), Moved(names, keys_before, entries));
 }
 
 TEST(PairOrder, IsSortedAndWholeAfterEventsOfAllKinds) {

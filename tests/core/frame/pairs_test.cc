@@ -28,8 +28,9 @@ struct Found {
   explicit Found(const Scene& scene, double omega = 1) { Add(scene, omega); }
   void Add(const Scene& scene, double omega = 1) {
     PairFinder finder;
-    EXPECT_TRUE(
-        finder.Find(test::KindsOf(scene, omega), {}, test::MovableOf(scene), &shapes, &list));
+    Crew crew(1);
+    EXPECT_TRUE(finder.Find(test::KindsOf(scene, omega), {}, test::MovableOf(scene), &crew, &shapes,
+                            &list));
   }
   std::vector<int> rows(int pair) const {
     const auto rows = list.rows_of(list.pairs[pair]);
@@ -213,7 +214,8 @@ TEST(Pairs, AreNotFoundWhereAParentMayNotBeOne) {
     PairFinder finder;
     ShapeTable shapes;
     PairList list;
-    return finder.Find(test::KindsOf(scene, 1), {}, test::MovableOf(scene), &shapes, &list);
+    Crew crew(1);
+    return finder.Find(test::KindsOf(scene, 1), {}, test::MovableOf(scene), &crew, &shapes, &list);
   };
   EXPECT_TRUE(found(3));
   EXPECT_FALSE(found(0)) << "other bodies";

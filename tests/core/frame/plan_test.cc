@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/core/support/block_problems.h"
+#include "tests/core/support/manifold_problems.h"
 
 namespace cairn {
 namespace {
@@ -253,6 +254,65 @@ TEST(Plan, IsSoundForRandomScenesThatChange) {
       planned.scene = game.Next().scene;
       planned.Make();
     }
+  }
+}
+
+bool SameBlock(const PairBlock& a, const PairBlock& b) {
+  const std::span rows_a(a.rows, a.row_count), rows_b(b.rows, b.row_count);
+  return a.form == b.form && a.data == b.data && a.x == b.x && a.lanes == b.lanes &&
+         std::ranges::equal(rows_a, rows_b) && std::ranges::equal(a.a, b.a) &&
+         std::ranges::equal(a.b, b.b);
+}
+
+bool SameRun(const LaneRun& a, const LaneRun& b) {
+  return a.block == b.block && a.first == b.first && a.lanes == b.lanes &&
+         a.like_next == b.like_next;
+}
+
+void ExpectSame(const Plan& a, const Plan& b) {
+  ASSERT_TRUE(std::ranges::equal(a.blocks(), b.blocks(), SameBlock));
+  ASSERT_TRUE(std::ranges::equal(a.runs(), b.runs(), SameRun));
+  EXPECT_TRUE(std::ranges::equal(a.body_of_slot(), b.body_of_slot()));
+  EXPECT_TRUE(std::ranges::equal(a.island_of_body(), b.island_of_body()));
+  EXPECT_EQ(a.data_lines(), b.data_lines());
+  EXPECT_EQ(a.stages().size(), b.stages().size());
+  for (int block = 0; block < static_cast<int>(a.blocks().size()); ++block) {
+    for (int lane = 0; lane < a.blocks()[block].lanes; ++lane) {
+      const Pair &of_a = a.pair(block, lane), &of_b = b.pair(block, lane);
+      ASSERT_TRUE(of_a.source == of_b.source && of_a.index == of_b.index);
+      ASSERT_EQ(a.island_of(block, lane), b.island_of(block, lane));
+    }
+  }
+}
+
+// More pairs than one thread looks at at a time, in all parts of it; some bodies share a name, and
+// some pairs have two joints.
+TEST(Plan, OfManyPairsIsTheSameOnSeveralThreads) {
+  test::ManifoldScene scene = test::RandomManifolds(4000, 12000, 5);
+  test::AddJoints(5000, 6, &scene);
+  scene.joints.insert(scene.joints.end(), scene.joints.begin(), scene.joints.begin() + 100);
+  for (size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].id = 1 + i / 2;
+  // too many for as many colours
+  for (int i = 0; i < 900; ++i) scene.manifolds[13 * i].body_b = 7 + 1000 * (i % 3);
+  MovableBodies movable;
+  for (const Body& body : scene.bodies) movable.push_back(MobilityOf(body));
+  test::Random random(7);
+  Crew alone(1), several(4);
+  Plan on_one, on_several;
+  const auto begin_or_end = [&random](int most, auto* list) {
+    for (int i = 0; i < most; ++i) {
+      list->erase(list->begin() + random.Index(static_cast<int>(list->size())));
+      const auto again = (*list)[random.Index(static_cast<int>(list->size()))];
+      list->insert(list->begin() + random.Index(static_cast<int>(list->size())), again);
+    }
+  };
+  for (const int events : {0, 1, 20, 3000, 0, 200}) {
+    begin_or_end(events, &scene.manifolds);
+    begin_or_end(events / 2, &scene.joints);
+    ASSERT_TRUE(on_one.Make(scene.problem(), {}, movable, &alone));
+    ASSERT_TRUE(on_several.Make(scene.problem(), {}, movable, &several));
+    ExpectSame(on_one, on_several);
+    if (testing::Test::HasFailure()) return;
   }
 }
 
