@@ -6,7 +6,9 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
+#include <exception>
 #include <thread>
+#include <utility>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -116,8 +118,13 @@ class Board : public detail::Placed {
     published_.store(now.Packed(), std::memory_order_release);
     Attend(now, {});
     // what is claimed is being worked on by a running thread: this wait ends
-    const SpanClock clock(recorder, 0, {SpanKind::kWait});
-    for (Patience patience; done_.load(std::memory_order_acquire) < claims;) patience.Wait();
+    {
+      const SpanClock clock(recorder, 0, {SpanKind::kWait});
+      for (Patience patience; done_.load(std::memory_order_acquire) < claims;) patience.Wait();
+    }
+    if (!failed_.load(std::memory_order_relaxed)) return;
+    failed_.store(false, std::memory_order_relaxed);
+    std::rethrow_exception(std::exchange(failure_, nullptr));
   }
 
   /// A helper, already counted: works until the board is closed.
@@ -202,7 +209,12 @@ class Board : public detail::Placed {
       if (!claimed_[claim].compare_exchange_strong(last, stage.number, std::memory_order_acq_rel)) {
         continue;
       }
-      DoClaim(claim, stage.claims, helper.lane);
+      try {
+        DoClaim(claim, stage.claims, helper.lane);
+      } catch (...) {
+        // the caller throws it, when nobody is at work any more
+        if (!failed_.exchange(true, std::memory_order_relaxed)) failure_ = std::current_exception();
+      }
       done_.fetch_add(1, std::memory_order_release);
     }
   }
@@ -229,6 +241,8 @@ class Board : public detail::Placed {
   std::atomic<std::uint64_t> lanes_{1};  ///< that are taken, a bit each
   std::atomic<int> stage_{0}, units_{0};
   std::array<std::atomic<std::uint64_t>, kClaims> claimed_{};
+  std::atomic<bool> failed_{false};
+  std::exception_ptr failure_;  ///< of the first claim of a stage that threw
   alignas(128) std::atomic<bool> open_{false};
   alignas(128) std::atomic<std::uint64_t> published_{0};
   alignas(128) std::atomic<int> done_{0};

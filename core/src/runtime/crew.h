@@ -9,7 +9,8 @@
 
 namespace cairn {
 
-/// Work in stages, each a number of units that may be done at the same time.
+/// Work in stages, each a number of units that may be done at the same time. What a unit throws,
+/// whoever does it, comes out of Crew::Run() when the others of its stage are done, or thrown, too.
 class StagedWork {
  public:
   virtual int stages() const = 0;

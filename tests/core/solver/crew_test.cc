@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <numeric>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -79,6 +80,27 @@ TEST(Crew, OfOneIsAloneAndDoesAllInOrder) {
   ASSERT_EQ(recorder.spans(0).size(), 1u);
   EXPECT_EQ(recorder.spans(0)[0].label, (SpanLabel{SpanKind::kSweep, 3, 1}));
   EXPECT_EQ(recorder.spans(0)[0].units, 5);
+}
+
+TEST(Crew, ThrowsWhatAUnitThrewWhenNobodyIsAtWork) {
+  for (const int threads : {1, 2, 4}) {
+    Crew crew(threads);
+    for (int repetition = 0; repetition < 200; ++repetition) {
+      std::atomic<int> at_work = 0;
+      const bool all_throw = repetition % 2 == 0;
+      const auto unit = [&](int i) {
+        ++at_work;
+        for (int spin = 0; spin < 200; ++spin) at_work.load();
+        --at_work;
+        if (all_throw || i == 17) throw std::runtime_error("unit");
+      };
+      EXPECT_THROW(ForUnits(40, &crew, unit), std::runtime_error);
+      EXPECT_EQ(at_work, 0);
+      Counted work(kStages);
+      crew.Run(&work);
+      work.ExpectDoneOnce(6);
+    }
+  }
 }
 
 TEST(Crew, DoesManyWorksOfOneShift) {

@@ -202,6 +202,20 @@ Written Expected() {
   return Solve(&alone, LargeScene());
 }
 
+// Whoever does what needs memory: nobody is at work any more when the caller hears of it.
+TEST(NoMemory, LeavesASolverOnSeveralThreadsAsNew) {
+  const Written expected = Expected();
+  for (long call = 0;; ++call) {
+    test::CountingMemory memory;
+    Solver solver(OnThreads(nullptr), &memory);
+    if (Survives(&solver, LargeScene(), {&memory, call})) {
+      EXPECT_GT(call, 50);
+      break;
+    }
+    ASSERT_TRUE(Solve(&solver, LargeScene()) == expected) << "allocation " << call;
+  }
+}
+
 class ThrowingExecutor final : public Executor {
  public:
   explicit ThrowingExecutor(int good) : good_(good) {}
