@@ -105,14 +105,18 @@ void Colouring::Colour(std::span<const Pair> pairs) {
 }
 
 void Colouring::KeepKnown(std::span<const Pair> pairs) {
+  size_t expected = 0;
   for (size_t i = 0; i < pairs.size(); ++i) {
     colours_[i] = -1;
-    const int known = before_[i];
-    // each once, even where bodies share a name
-    if (known < 0 || std::exchange(known_[known].again, true)) {
-      before_[i] = -1;
-      continue;
+    int known = before_[i];
+    // of some that share a name, the one behind the last that was found
+    if (known >= 0 && known != static_cast<int>(expected)) {
+      known = FindKnown(next_[i].name, expected);
     }
+    before_[i] = -1;
+    if (known < 0 || std::exchange(known_[known].again, true)) continue;
+    before_[i] = known;
+    expected = static_cast<size_t>(known) + 1;
     // unless two bodies swapped names, or can no longer move
     const int kind = KindOf(pairs[i]), colour = known_[known].colour;
     const bool of_kind = colour != Colour::kOverflow && (colour - 1) / Colour::kOfKind == kind;
