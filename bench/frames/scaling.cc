@@ -230,12 +230,13 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
       const double end_of_stage = barrier * std::log2(std::max(2, threads));
       std::vector<Forecast> forecasts;
       std::vector<double> measured;
+      const bool with_gaps = options.gaps > 0 && threads == options.threads.back();
       std::vector<Alone> alone;
       for (int frame = 0; frame < first + options.window.frames; ++frame) {
         if (frame == first) cut.Record();
         const double whole = cut.Step(), took = can ? real.Step() : 0;
         if (frame < first) continue;
-        AddAlone(cut.spans(), forecasts.size(), &alone);
+        if (with_gaps) AddAlone(cut.spans(), forecasts.size(), &alone);
         forecasts.push_back(Predict(cut.spans(), whole, threads, end_of_stage));
         measured.push_back(took);
       }
@@ -253,9 +254,7 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
            median([](const Forecast& forecast) { return forecast.barriers; }),
            Milliseconds(predicted), can ? Milliseconds(cli::Median(measured)) : "-",
            std::isnan(one) ? "-" : fmt::format("{:.2f}", one / predicted), SerialParts(forecasts)});
-      if (options.gaps > 0 && threads == options.threads.back()) {
-        PrintAlone(alone, forecasts.size(), options.gaps, NameOf(scene));
-      }
+      if (with_gaps) PrintAlone(alone, forecasts.size(), options.gaps, NameOf(scene));
     }
   }
   fmt::print("{}\n", table.ToMarkdown());

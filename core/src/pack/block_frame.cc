@@ -110,10 +110,6 @@ bool FitsFloats(const Body& given, const WhitenedBody& body) {
   return all;
 }
 
-}  // namespace
-
-namespace {
-
 template <class T>
 void CopyInParts(std::span<const T> from, Crew* crew, Array<T>* to) {
   to->resize(from.size());

@@ -144,19 +144,18 @@ bool PairFinder::Find(std::span<const RowKind> kinds, const ContactProblem& prob
   row_kinds_ = kinds;
   movable_ = &movable;
   list_ = list;
+  list_->rows.clear();
+  // a caller that changes settings of single rows must not fill the memory with shapes
+  if (shapes->size() > kMostShapes) shapes->Clear();
   size_t first = 0;
-  if (kinds.empty()) {
-    pair_of_row_.clear();
-    list_->rows.clear();
-    // a caller that changes settings of single joints must not fill the memory with shapes
-    if (shapes->size() > kMostShapes) shapes->Clear();
-  } else {
+  if (!kinds.empty()) {
     list_->pairs.clear();
     if (!AddRows(kinds)) return false;
     HandOutRows();
     FindShapes(shapes);
     first = list_->pairs.size();
   }
+  // those of the last call are written over
   list_->pairs.resize(first + problem.joints.size() + problem.manifolds.size());
   AddAll(problem.joints, first, crew, shapes);
   AddAll(problem.manifolds, first + problem.joints.size(), crew, shapes);
@@ -300,9 +299,6 @@ void PairFinder::HandOutRows() {
 }
 
 void PairFinder::FindShapes(ShapeTable* shapes) {
-  // a caller that changes settings of single rows must not fill the memory with shapes
-  if (shapes->size() > kMostShapes) shapes->Clear();
-
   for (Pair& pair : list_->pairs) {
     scratch_.clear();
     for (int row : list_->rows_of(pair)) {

@@ -21,8 +21,8 @@ bool HasLockedAxes(const Body& body);
 /// What locks make of one side of a row.
 struct LockedSide {
   bool alone;  ///< The row does not move the body.
-  double
-      extra;  ///< What the body would answer along its locked axes [1/kg]: steps 1 / (d + extra).
+  /// What the body would answer along its locked axes [1/kg]: steps are 1 / (d + extra).
+  double extra;
 };
 /// @param linear2, angular2  |J|^2 of its side of the row, of what pushes and of what turns
 /// @param g  G = J R of that side

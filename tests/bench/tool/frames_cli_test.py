@@ -128,6 +128,16 @@ class ThreadsTest(unittest.TestCase):
         self.assertEqual(rows[0]["imbalance"], "0.000")
         self.assertEqual(rows[0]["barriers"], "0.000")
 
+    def test_names_where_one_thread_is_alone(self):
+        words = ["scaling", "--scene", "pyramid3d:14", "--frame", "2", "--frames", "3", "--threads", "1,4"]
+        text = frames(*words, "--gaps", "3").stdout
+        table = text[text.index("alone after") :].split("\n\n")[0].splitlines()
+        self.assertEqual(len(table), 2 + 3)
+        us = [float(line.split("|")[4]) for line in table[2:]]
+        self.assertEqual(us, sorted(us, reverse=True))
+        self.assertGreater(us[0], 0)
+        self.assertNotIn("alone after", frames(*words).stdout)
+
     def test_a_number_of_threads_that_cannot_be_is_refused(self):
         for words in (["--threads", "0"], ["--threads", "1,1025"], ["--threads", "many"]):
             for command in ("threads", "scaling", "mt"):

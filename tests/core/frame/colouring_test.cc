@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "tests/core/support/block_problems.h"
@@ -221,6 +223,46 @@ TEST(Colouring, SaysWhereEachPairWasBefore) {
   colouring.Update(bodies, Pairs{Contact(3, kWorld), Contact(4, 5), Contact(2, 1), Joint(1, 2)},
                    &alone);
   EXPECT_EQ((std::vector<int>{3, -1, 1, 2}), Ints(colouring.before()));
+}
+
+// One after the other: each where it is expected, behind the last that was found, or the first of
+// its name, if nobody was found there. More pairs than one thread looks at at a time.
+TEST(Colouring, FindsPairsThatShareANameInTheOrderOfTheList) {
+  std::mt19937 random(5);
+  const auto below = [&random](int most) { return static_cast<int>(random() % most); };
+  std::vector<Body> bodies(600);
+  for (size_t i = 0; i < bodies.size(); ++i) bodies[i].id = 1 + i / 3;
+  Pairs pairs;
+  while (pairs.size() < 9000) pairs.push_back(Contact(below(600), kWorld));
+  const auto name = [&bodies](const Pair& pair) { return bodies[pair.a].id; };
+  Colouring colouring;
+  Crew crew(3);
+  Pairs last;
+  for (int call = 0; call < 12; ++call) {
+    std::vector<int> expected;
+    std::vector<char> found(last.size());
+    size_t next = 0;
+    for (const Pair& pair : pairs) {
+      const bool there = next < last.size() && name(last[next]) == name(pair);
+      const auto first = std::find_if(last.begin(), last.end(),
+                                      [&](const Pair& known) { return name(known) == name(pair); });
+      const size_t at = there ? next : static_cast<size_t>(first - last.begin());
+      if (at == last.size() || std::exchange(found[at], 1) != 0) {
+        expected.push_back(-1);
+        continue;
+      }
+      expected.push_back(static_cast<int>(at));
+      next = at + 1;
+    }
+    colouring.Update(bodies, pairs, &crew);
+    EXPECT_EQ(Ints(colouring.before()), expected) << call;
+    last = pairs;
+    for (int event = 0; event < 30; ++event) {
+      pairs.erase(pairs.begin() + below(static_cast<int>(pairs.size())));
+      pairs.insert(pairs.begin() + below(static_cast<int>(pairs.size())),
+                   Contact(below(600), kWorld));
+    }
+  }
 }
 
 TEST(Colouring, FindsAPlaceOnceEvenWhereBodiesShareAName) {
