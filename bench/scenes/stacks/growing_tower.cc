@@ -8,10 +8,11 @@ namespace cairn::bench {
 namespace {
 
 constexpr Brick kLightest = {.length = 1, .height = 1, .depth = 1, .mass = 1};
-constexpr double kRatio = 64;  // of the topmost box and the lowest
+constexpr double kDoublings = 6;  // of the mass, from the lowest box to the topmost
 
 double MassOf(int box, int boxes) {
-  return kLightest.mass * std::pow(kRatio, double(box) / (boxes - 1));
+  // not pow(64, ...), which clang computes as this and GCC does not
+  return kLightest.mass * std::exp2(kDoublings * box / (boxes - 1));
 }
 
 KnownFacts GrowingTowerFacts(int size) {

@@ -225,7 +225,7 @@ TEST(Joints, SpringsTurnTheShortWay) {
     world.things[0].turn = Eigen::AngleAxisd(start, Vector3d::UnitX());
     double turned = start;
     for (int i = 0; i < 300; ++i) {
-      world.Step([&](SmallWorld* w) {
+      world.Step([rest = rest](SmallWorld* w) {
         Hold(HingeJoint({.rest = rest, .frequency = 2}), Vector3d::Zero(), w);
       });
       turned += world.h * world.things[0].velocity.angular.x();
