@@ -39,8 +39,8 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
 void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
                              const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
                              const ContactStart& start) {
-  const ContactLaw law(info, limits);
-  ContactRowBuilder builder(law, bodies_, &group_, &pushes_);
+  const ContactTerms terms(info, limits);
+  ContactRowBuilder builder(terms, bodies_, &group_, &pushes_);
   ManifoldInput input;
   for (size_t i = 0; i < manifolds.size(); ++i) {
     PrefetchAhead(manifolds, i, PrefetchPoints::kYes);

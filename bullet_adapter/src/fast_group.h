@@ -12,7 +12,7 @@
 #include "cairn/bullet/options.h"
 #include "cairn/bullet/precision.h"
 #include "contacts/contact_points.h"
-#include "contacts/contact_rows.h"
+#include "contacts/contact_row_builder.h"
 #include "contacts/split_impulse.h"
 #include "contacts/twist_memory.h"
 #include "group_problem.h"

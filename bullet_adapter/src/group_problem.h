@@ -57,10 +57,10 @@ struct GroupProblem {
     return joint.written_out ? impulses[at] : static_cast<double>(joint_impulses[at]);
   }
 
-  /// Appends a row that begins as a copy of @p law. The reference is good until the next one.
-  Row& Append(const Row& law, double impulse) {
+  /// Appends a row that begins as a copy of @p first. The reference is good until the next one.
+  Row& Append(const Row& first, double impulse) {
     impulses.push_back(impulse);
-    rows.push_back(law);
+    rows.push_back(first);
     return rows.back();
   }
 };

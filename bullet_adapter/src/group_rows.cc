@@ -66,8 +66,8 @@ void GroupRows::ReadBodies(const RowPools& pools) {
   velocities_.assign(bodies_.size(), Velocity{});
 }
 
-int GroupRows::ReadRow(const RowPools& pools, const Row& law, btSolverConstraint* source) {
-  Row row = law;
+int GroupRows::ReadRow(const RowPools& pools, const Row& common, btSolverConstraint* source) {
+  Row row = common;
   row.body_a = source->m_solverBodyIdA;
   row.body_b = source->m_solverBodyIdB;
   row.linear_a = ToEigen(source->m_contactNormal1);
@@ -94,14 +94,14 @@ void GroupRows::ReadJoints(const RowPools& pools, const btContactSolverInfo& inf
   for (int i = 0; i < pools.joints->size(); ++i) {
     btSolverConstraint& source = (*pools.joints)[i];
     // Bullet's D leaves the cfm of a joint out
-    Row law{.lo = Bound(source.m_lowerLimit),
-            .hi = Bound(source.m_upperLimit),
-            .relaxation = Relaxation(1 + source.m_cfm)};
+    Row common{.lo = Bound(source.m_lowerLimit),
+               .hi = Bound(source.m_upperLimit),
+               .relaxation = Relaxation(1 + source.m_cfm)};
     if (limits == SweepLimits::kBullet) {
       const int own = source.m_overrideNumSolverIterations;
-      law.host.max_sweeps = own > 0 ? own : info.m_numIterations;
+      common.host.max_sweeps = own > 0 ? own : info.m_numIterations;
     }
-    ReadRow(pools, law, &source);
+    ReadRow(pools, common, &source);
   }
 }
 

@@ -144,8 +144,9 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   result.written_out = form == ContactForm::kRows || !IsCompact();
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
-    const Row law{.body_a = ends.body_a, .body_b = ends.body_b, .host = {.max_sweeps = max_sweeps}};
-    for (const Slot& slot : slots_) AppendRow(ends, law, slot, damping);
+    const Row common{
+        .body_a = ends.body_a, .body_b = ends.body_b, .host = {.max_sweeps = max_sweeps}};
+    for (const Slot& slot : slots_) AppendRow(ends, common, slot, damping);
   } else {
     result.first_row = static_cast<int>(group_->joint_rows.size());
     AppendCompact(ends, max_sweeps, damping);
@@ -287,11 +288,11 @@ btScalar JointRowBuilder::UnseenSpeed(const Ends& ends, const Slot& slot) {
   return speed;
 }
 
-void JointRowBuilder::AppendRow(const Ends& ends, const Row& law, const Slot& slot,
+void JointRowBuilder::AppendRow(const Ends& ends, const Row& common, const Slot& slot,
                                 btScalar damping) {
   const btVector3 linear_a = ToVector(slot.linear_a), angular_a = ToVector(slot.angular_a);
   const btVector3 linear_b = ToVector(slot.linear_b), angular_b = ToVector(slot.angular_b);
-  Row& row = group_->Append(law, 0);
+  Row& row = group_->Append(common, 0);
   row.linear_a = ToEigen(linear_a);
   row.angular_a = ToEigen(angular_a);
   row.linear_b = ToEigen(linear_b);

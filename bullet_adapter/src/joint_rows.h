@@ -68,7 +68,7 @@ class JointRowBuilder {
   /// What the core does not see of J v: static bodies have no number there, and may have a
   /// velocity.
   static btScalar UnseenSpeed(const Ends& ends, const Slot& slot);
-  void AppendRow(const Ends& ends, const Row& law, const Slot& slot, btScalar damping);
+  void AppendRow(const Ends& ends, const Row& common, const Slot& slot, btScalar damping);
   void AppendCompact(const Ends& ends, int max_sweeps, btScalar damping);
 
   BodyTable* bodies_;

@@ -14,7 +14,7 @@ inline constexpr int kFrontPadding = 32;
 inline constexpr int kFrontStep = 24;
 /// Numbers after the last of a front, or of a vector that is solved for, that kernels may read and
 /// write.
-inline constexpr int kFrontSlack = 16;
+inline constexpr int kFrontMargin = 16;
 
 /// So many rows and their padding.
 template <class T>
@@ -71,7 +71,7 @@ struct FrontKernels {
   void (*add_to_update)(const Front<T>& from, std::span<const RowRun> runs, const Front<T>& to);
 
   /// Solves with the columns of L, then takes their part from the rows below. @p x: one number a
-  /// row of the panel, finite in the padding, and kFrontSlack.
+  /// row of the panel, finite in the padding, and kFrontMargin.
   void (*forward)(const Front<T>& front, T* x);
   /// Solves with the transpose of L for the pivots; the rows below are known.
   void (*backward)(const Front<T>& front, T* x);

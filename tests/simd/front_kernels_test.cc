@@ -29,8 +29,8 @@ struct Memory {
 
   Memory(int pivots, int size)
       : front{nullptr, nullptr, pivots, size},
-        panel(static_cast<size_t>(front.panel_stride()) * pivots + kFrontSlack),
-        update(static_cast<size_t>(front.update_stride()) * size + kFrontSlack, kNaN),
+        panel(static_cast<size_t>(front.panel_stride()) * pivots + kFrontMargin),
+        update(static_cast<size_t>(front.update_stride()) * size + kFrontMargin, kNaN),
         floors(pivots, T(0)) {
     for (int j = 0; j < pivots; ++j) {
       for (int i = 0; i < j; ++i) Panel(i, j) = kNaN;
@@ -208,7 +208,7 @@ class FrontKernelsOf : public testing::TestWithParam<Target> {
         x[i] = i < pivots ? y[i] / memory.Panel(i, i) : y[i];
         for (int k = 0; k < std::min(i, pivots); ++k) x[i] += memory.Panel(i, k) * y[k];
       }
-      std::vector<T> local(memory.front.panel_stride() + kFrontSlack, T(0));
+      std::vector<T> local(memory.front.panel_stride() + kFrontMargin, T(0));
       const auto at = [&](int row) -> T& { return local[memory.RowInPanel(row)]; };
       for (int i = 0; i < rows; ++i) at(i) = static_cast<T>(x[i]);
       kernels<T>().forward(memory.at(), local.data());
@@ -235,7 +235,7 @@ class FrontKernelsOf : public testing::TestWithParam<Target> {
       Memory<T> memory(pivots, size);
       Fill(&memory, 5);
       ASSERT_TRUE(kernels<T>().factor(memory.at(), memory.floors.data()));
-      std::vector<T> expected(memory.front.panel_stride() + kFrontSlack, T(0));
+      std::vector<T> expected(memory.front.panel_stride() + kFrontMargin, T(0));
       Random random(6);
       for (int i = 0; i < pivots + size; ++i) {
         expected[memory.RowInPanel(i)] = static_cast<T>(random.Uniform(-1, 1));

@@ -9,9 +9,9 @@
 
 namespace cairn {
 
-/// One way in which two bodies may move against each other: along an axis [m, m/s, N] or about it
-/// [rad, rad/s, N m]. As it comes: free. Positive is body a along the axis, or turning about it by
-/// the right hand, as seen from body b.
+/// One direction in which two bodies may move against each other: along an axis [m, m/s, N] or
+/// about it [rad, rad/s, N m]. As it comes: free. Positive is body a along the axis, or turning
+/// about it by the right hand, as seen from body b.
 struct JointAxis {
   double lo = -kInfinity, hi = kInfinity;  ///< Limits, lo <= hi; equal: held there.
   double speed = 0;                        ///< That the motor wants.
@@ -101,16 +101,16 @@ class Joints {
   }
 
  private:
-  struct Way;
+  struct Direction;
   struct Kept {
     std::uint64_t id;
     int first, rows;  ///< in kept_impulses_
   };
 
   void Open(const JointSide& a, const JointSide& b);
-  void AddAxis(const JointAxis& axis, const Way& way, double position);
+  void AddAxis(const JointAxis& axis, const Direction& direction, double position);
   void AddCone(double cone, const JointSide& a, const JointSide& b);
-  JointRow& AddRow(const Way& way);
+  JointRow& AddRow(const Direction& direction);
   /// A share of it in a step, by the last row.
   void TakeBack(double error, JointRow* row);
   int Close(std::uint64_t id);

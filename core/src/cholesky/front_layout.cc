@@ -83,7 +83,7 @@ void FrontCholesky<T>::Analyse(int nodes, int node_size, std::span<const NodePai
   stages_.clear();
   if (workers == Workers::kCrew) CutTree();
   const std::size_t updates = workers == Workers::kCrew ? PlaceUpdatesOfSubtrees() : PlaceUpdates();
-  updates_.assign(updates + simd::kFrontSlack, 0);
+  updates_.assign(updates + simd::kFrontMargin, 0);
 
   int longest = 0;
   for (int f = 0; f < static_cast<int>(places_.size()); ++f) {
@@ -91,7 +91,7 @@ void FrontCholesky<T>::Analyse(int nodes, int node_size, std::span<const NodePai
   }
   floors_.resize(Scalars(nodes));
   ordered_.resize(Scalars(nodes));
-  local_.assign(longest + simd::kFrontSlack, 0);
+  local_.assign(longest + simd::kFrontMargin, 0);
 }
 
 /// Blocks lie in the order of the fronts that take them.
@@ -148,7 +148,7 @@ void FrontCholesky<T>::PlacePanels() {
     const auto front = ShapeOf(f);
     end += RoundToLine(static_cast<std::size_t>(front.panel_stride()) * front.pivots);
   }
-  MakeRoom(end + simd::kFrontSlack, &panels_);
+  MakeRoom(end + simd::kFrontMargin, &panels_);
 }
 
 template <class T>

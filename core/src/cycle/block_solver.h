@@ -22,7 +22,7 @@ class BlockSolver : public detail::Placed {
   explicit BlockSolver(Crew* crew) : crew_(crew) {}
 
   /// kDone: solved, and the islands of the report are filled in. Otherwise nothing is written: on
-  /// kChanged the input is not valid, on kOutOfRange floats do not do.
+  /// kInvalid the input is not valid, on kOutOfRange floats do not do.
   [[nodiscard]] PackResult Solve(const ContactProblem& problem, const Settings& settings,
                                  BudgetMeter* meter, const Impulses& impulses,
                                  std::span<Velocity> velocities, Report* report);

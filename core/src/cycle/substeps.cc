@@ -22,7 +22,7 @@ constexpr double kMostHalfTurn = 1;
 /// What is faster turns by nobody knows what.
 constexpr int kMostDoublings = 40;
 
-/// What compliance gave way by, where it is read.
+/// What compliance yielded, where it is read.
 double Yielded(double compliance, double impulse) { return compliance * impulse; }
 
 Vector3d ToVector(const float* from) { return {from[0], from[1], from[2]}; }
@@ -67,23 +67,24 @@ void Substeps::Begin(const ContactProblem& problem, const Impulses& start, int p
   motions_.assign(problem.motions.begin(), problem.motions.end());
   twists_.assign(problem.twists.begin(), problem.twists.end());
   joint_rows_.assign(problem.joint_rows.begin(), problem.joint_rows.end());
-  ways_.resize(bodies_.size());
+  travels_.resize(bodies_.size());
   means_.assign(bodies_.size(), {});
   velocities_.assign(bodies_.size(), {});
   relaxed_ = false;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    Way& way = ways_[i];
-    way = {};
-    way.start = way.now = body.velocity;
-    way.pushed.linear = body.inv_mass * View(body.linear_factor).cwiseProduct(View(body.impulse));
-    way.pushed.angular = View(body.inv_inertia) * View(body.angular_impulse);
+    Travel& travel = travels_[i];
+    travel = {};
+    travel.start = travel.now = body.velocity;
+    travel.pushed.linear =
+        body.inv_mass * View(body.linear_factor).cwiseProduct(View(body.impulse));
+    travel.pushed.angular = View(body.inv_inertia) * View(body.angular_impulse);
     if (!motions_.empty()) {
       const ContactMotion& motion = motions_[i];
-      way.start = {ToVector(motion.start_velocity), ToVector(motion.start_spin)};
-      way.pushed = {ToVector(motion.free_velocity), ToVector(motion.free_spin)};
-      AddTo(way.start, -1, &way.pushed);
-      AddTo(way.start, 1, &way.now);
+      travel.start = {ToVector(motion.start_velocity), ToVector(motion.start_spin)};
+      travel.pushed = {ToVector(motion.free_velocity), ToVector(motion.free_spin)};
+      AddTo(travel.start, -1, &travel.pushed);
+      AddTo(travel.start, 1, &travel.now);
     }
     View(body.impulse) *= share();
     View(body.angular_impulse) *= share();
@@ -201,7 +202,7 @@ void Substeps::Advance() {
   AimPoints();
 }
 
-void Substeps::Turn(const Vector3d& spin, Way* way) const {
+void Substeps::Turn(const Vector3d& spin, Travel* travel) const {
   Vector3d half = 0.5 * share() * whole_.time_step * spin;
   int doublings = 0;
   for (; half.squaredNorm() > kMostHalfTurn * kMostHalfTurn && doublings < kMostDoublings;
@@ -216,13 +217,13 @@ void Substeps::Turn(const Vector3d& spin, Way* way) const {
   const Vector3d v = sine * half;
   Eigen::Quaterniond turn(cosine, v.x(), v.y(), v.z());
   for (int i = 0; i < doublings; ++i) turn = (turn * turn).normalized();
-  way->turn = turn * way->turn;
-  way->turn.normalize();
-  way->turned = way->turn.toRotationMatrix();
+  travel->turn = turn * travel->turn;
+  travel->turn.normalize();
+  travel->turned = travel->turn.toRotationMatrix();
 }
 
-Vector3d Substeps::MeanSpin(const Way& way) const {
-  const Eigen::Quaterniond& turn = way.turn;
+Vector3d Substeps::MeanSpin(const Travel& travel) const {
+  const Eigen::Quaterniond& turn = travel.turn;
   const Vector3d v = turn.w() < 0 ? Vector3d(-turn.vec()) : Vector3d(turn.vec());
   const double length = v.norm(), w = std::abs(turn.w());
   if (!(length > 0)) return Vector3d::Zero();
@@ -240,7 +241,7 @@ Vector3d Substeps::MeanSpin(const Way& way) const {
   if (motions_.empty()) return mean;
   // relative to what motions say, like velocities
   const double pushed = (part_ + 1) * share() / 2;
-  return mean - View(way.start.angular) - pushed * View(way.pushed.angular);
+  return mean - View(travel.start.angular) - pushed * View(travel.pushed.angular);
 }
 
 void Substeps::MoveBodies() {
@@ -249,21 +250,21 @@ void Substeps::MoveBodies() {
   const Array<Velocity>& moves = relaxed_ ? moves_ : velocities_;
   for (size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
-    Way& way = ways_[i];
+    Travel& travel = travels_[i];
     body.velocity = velocities_[i];
-    way.now = velocities_[i];
+    travel.now = velocities_[i];
     Velocity moved = moves[i];
     if (!motions_.empty()) {
-      for (Velocity* velocity : {&way.now, &moved}) {
-        AddTo(way.start, 1, velocity);
-        AddTo(way.pushed, share() * part_, velocity);
+      for (Velocity* velocity : {&travel.now, &moved}) {
+        AddTo(travel.start, 1, velocity);
+        AddTo(travel.pushed, share() * part_, velocity);
       }
     }
-    AddTo(moved, share(), &way.way);
+    AddTo(moved, share(), &travel.total);
     AddTo(moves[i], share(), &means_[i]);
     if (!turns) continue;
-    Turn(moved.angular, &way);
-    if (done()) means_[i].angular = MeanSpin(way);
+    Turn(moved.angular, &travel);
+    if (done()) means_[i].angular = MeanSpin(travel);
   }
   MoveMotions();
   relaxed_ = false;
@@ -271,10 +272,10 @@ void Substeps::MoveBodies() {
 
 void Substeps::MoveMotions() {
   for (size_t i = 0; i < motions_.size(); ++i) {
-    Velocity free = ways_[i].now;
-    AddTo(ways_[i].pushed, share(), &free);
-    Put(ways_[i].now.linear, motions_[i].start_velocity);
-    Put(ways_[i].now.angular, motions_[i].start_spin);
+    Velocity free = travels_[i].now;
+    AddTo(travels_[i].pushed, share(), &free);
+    Put(travels_[i].now.linear, motions_[i].start_velocity);
+    Put(travels_[i].now.angular, motions_[i].start_spin);
     Put(free.linear, motions_[i].free_velocity);
     Put(free.angular, motions_[i].free_spin);
   }
@@ -296,30 +297,30 @@ void Substeps::Add() {
   }
 }
 
-/// @p way: that the row came, and what it yielded: a soft row is not behind by that.
-double Substeps::AimBoth(double target, double way) const {
-  const double behind = target * part_ * share() - way;
+/// @p travelled: that the row came, and what it yielded: a soft row is not behind by that.
+double Substeps::AimBoth(double target, double travelled) const {
+  const double behind = target * part_ * share() - travelled;
   return target + kGain * parts_ * behind;
 }
 
-double Substeps::AimOne(double target, double way) const {
+double Substeps::AimOne(double target, double travelled) const {
   if (target < 0) {
     // what is left of a gap
-    const double gap = way - target;
+    const double gap = travelled - target;
     return -(gap > 0 ? 1 : kGain) * parts_ * gap;
   }
-  const double behind = target * part_ * share() - way;
+  const double behind = target * part_ * share() - travelled;
   return target + (behind > 0 ? kGain : 1) * parts_ * behind;
 }
 
 template <class AnyRow>
-double Substeps::Along(const AnyRow& row, int body_a, int body_b, Velocity Way::*what) const {
+double Substeps::Along(const AnyRow& row, int body_a, int body_b, Velocity Travel::*what) const {
   double sum = 0;
   if (body_a != kWorld) {
-    sum += Dot(ToVector(row.linear_a), ToVector(row.angular_a), ways_[body_a].*what);
+    sum += Dot(ToVector(row.linear_a), ToVector(row.angular_a), travels_[body_a].*what);
   }
   if (body_b != kWorld) {
-    sum += Dot(ToVector(row.linear_b), ToVector(row.angular_b), ways_[body_b].*what);
+    sum += Dot(ToVector(row.linear_b), ToVector(row.angular_b), travels_[body_b].*what);
   }
   return sum;
 }
@@ -331,19 +332,19 @@ void Substeps::AimRows() {
     row.lo = whole.lo * share();
     row.hi = whole.hi * share();
     row.compliance = whole.compliance * parts_;
-    const auto along = [&](Velocity Way::*what) {
+    const auto along = [&](Velocity Travel::*what) {
       return Along(row, row.body_a, row.body_b, what);
     };
     // a target leaves out what motions say
-    const double pushed = motions_.empty() ? 0 : along(&Way::pushed);
-    const double seen = motions_.empty() ? 0 : along(&Way::start) + pushed;
+    const double pushed = motions_.empty() ? 0 : along(&Travel::pushed);
+    const double seen = motions_.empty() ? 0 : along(&Travel::start) + pushed;
     const double target = whole.target + seen;
     double aim = target;
     if (row.parent == kNoRow && !(IsBoundedBelow(row.lo) && IsBoundedAbove(row.hi))) {
-      const double way = along(&Way::way) + Yielded(whole.compliance, rows_sum_[i]);
-      aim = !IsBoundedBelow(row.lo) && !IsBoundedAbove(row.hi) ? AimBoth(target, way)
-            : IsBoundedBelow(row.lo)                           ? AimOne(target, way)
-                                                               : -AimOne(-target, -way);
+      const double travelled = along(&Travel::total) + Yielded(whole.compliance, rows_sum_[i]);
+      aim = !IsBoundedBelow(row.lo) && !IsBoundedAbove(row.hi) ? AimBoth(target, travelled)
+            : IsBoundedBelow(row.lo)                           ? AimOne(target, travelled)
+                                                               : -AimOne(-target, -travelled);
     }
     row.target = aim - (seen - pushed * (parts_ - part_ - 1) * share());
   }
@@ -364,26 +365,26 @@ void Substeps::AimJoints() {
       if (is_held_[at] != 0) continue;
       JointRow seen = whole;
       if (joint.opposite) Put(-ToVector(whole.linear_a), seen.linear_b);
-      const auto along = [&](Velocity Way::*what) {
+      const auto along = [&](Velocity Travel::*what) {
         return Along(seen, joint.body_a, joint.body_b, what);
       };
       // what damping lets the bodies keep of their free motion
       const double kept = 1 - static_cast<double>(joint.damping);
       double target = whole.target, rest = 0;
       if (kept != 0) {
-        const double pushed = along(&Way::pushed), now = along(&Way::now);
+        const double pushed = along(&Travel::pushed), now = along(&Travel::now);
         rest = kept * (now + pushed * share());
-        target += kept * (along(&Way::start) + pushed);
+        target += kept * (along(&Travel::start) + pushed);
       }
       const bool below = bounded && IsBoundedBelow(row.lo);
       const bool above = bounded && IsBoundedAbove(row.hi);
       double aim = target;
       if (!(below && above)) {
-        const double way =
-            along(&Way::way) + (joint.soft ? Yielded(whole.compliance, joints_sum_[at]) : 0);
-        aim = !below && !above ? AimBoth(target, way)
-              : below          ? AimOne(target, way)
-                               : -AimOne(-target, -way);
+        const double travelled =
+            along(&Travel::total) + (joint.soft ? Yielded(whole.compliance, joints_sum_[at]) : 0);
+        aim = !below && !above ? AimBoth(target, travelled)
+              : below          ? AimOne(target, travelled)
+                               : -AimOne(-target, -travelled);
       }
       row.target = ToFloat(aim - rest);
     }
@@ -399,9 +400,9 @@ void Substeps::AimHeld(const Held& held) {
   const auto move = [&](int body, const Vector3d& arm, Vector3d* now) -> Vector3d {
     *now = arm;
     if (body == kWorld) return Vector3d::Zero();
-    const Way& way = ways_[body];
-    *now = way.turned * arm;
-    return View(way.way.linear) + (*now - arm) / h;
+    const Travel& travel = travels_[body];
+    *now = travel.turned * arm;
+    return View(travel.total.linear) + (*now - arm) / h;
   };
   Vector3d arm_a, arm_b;
   const Vector3d moved_a = move(joint.body_a, held.arm_a, &arm_a);
@@ -416,13 +417,13 @@ void Substeps::AimHeld(const Held& held) {
     if (kept != 0) {
       JointRow seen = whole;
       Put(b, seen.linear_b);
-      const auto along = [&](const JointRow& of, Velocity Way::*what) {
+      const auto along = [&](const JointRow& of, Velocity Travel::*what) {
         return Along(of, joint.body_a, joint.body_b, what);
       };
-      target += kept * (along(seen, &Way::start) + along(seen, &Way::pushed));
+      target += kept * (along(seen, &Travel::start) + along(seen, &Travel::pushed));
       Put(arm_a.cross(a), seen.angular_a);
       Put(arm_b.cross(b), seen.angular_b);
-      rest = kept * (along(seen, &Way::now) + share() * along(seen, &Way::pushed));
+      rest = kept * (along(seen, &Travel::now) + share() * along(seen, &Travel::pushed));
     }
     if (joint.body_a != kWorld) Put(arm_a.cross(a), row.angular_a);
     if (joint.body_b != kWorld) Put(arm_b.cross(b), row.angular_b);
@@ -434,25 +435,25 @@ void Substeps::AimHeld(const Held& held) {
 void Substeps::AimPoints() {
   const Velocity rests;
   for (const Manifold& manifold : whole_.manifolds) {
-    const auto of = [&](int body, Velocity Way::*what) -> const Velocity& {
-      return body == kWorld ? rests : ways_[body].*what;
+    const auto of = [&](int body, Velocity Travel::*what) -> const Velocity& {
+      return body == kWorld ? rests : travels_[body].*what;
     };
     for (int p = 0; p < manifold.points; ++p) {
       const int at = manifold.first_point + p;
       const ContactPoint& whole = whole_.points[at];
       ContactPoint& point = points_[at];
-      const auto apart = [&](Velocity Way::*what) {
+      const auto apart = [&](Velocity Travel::*what) {
         return Apart(whole, of(manifold.body_a, what), of(manifold.body_b, what));
       };
       const double yielded = manifold.soft ? Yielded(whole.compliance, points_sum_[at].normal) : 0;
-      double aim = AimOne(whole.bias, apart(&Way::way) + yielded);
+      double aim = AimOne(whole.bias, apart(&Travel::total) + yielded);
       point.compliance = static_cast<float>(whole.compliance * parts_);
       point.restitution = 0;
       if (whole.restitution > 0) {
         // a point bounces in the part that it is reached in, where it is
-        const double now = apart(&Way::now);
+        const double now = apart(&Travel::now);
         const bool bounces = -now >= whole_.contact_law.bounce_speed && now < 0;
-        const bool reached = now + apart(&Way::pushed) * share() < aim;
+        const bool reached = now + apart(&Travel::pushed) * share() < aim;
         // what bounces needs not be pushed out besides
         if (bounces && reached && -now * whole.restitution > aim) {
           point.restitution = whole.restitution;

@@ -19,11 +19,11 @@ namespace cairn {
 ///     substeps.Write(impulses, velocities);
 ///
 /// External impulses, bounds of impulses and compliances are those of an nth of the step. A row
-/// asks for a velocity; in the whole step that takes its bodies a way along it. What they are
-/// behind or ahead of that way after some parts is carried to the target of the next, to first
-/// order. Three rows of a joint that hold a point do better: their arms turn with the bodies, and
-/// what they are behind is measured. A gap is shared out to nobody: it is closed when it is used
-/// up, and bounces where it is.
+/// asks for a velocity, which moves its bodies some distance in the whole step. What they are
+/// behind or ahead of that after some parts is carried to the target of the next, to first order.
+/// Three rows of a joint that hold a point do better: their arms turn with the bodies, and what
+/// they are behind is measured. A gap is shared out to nobody: it is closed when it is used up, and
+/// bounces where it is.
 class Substeps {
  public:
   /// @pre the problem is valid, and outlives the parts; parts >= 1
@@ -48,12 +48,12 @@ class Substeps {
   std::span<const Velocity> means() const { return means_; }
 
  private:
-  /// How a body moved so far, in velocities: the way times the length of the step.
-  struct Way {
+  /// How a body moved so far, in velocities: displacements over the length of the step.
+  struct Travel {
     Velocity start;   ///< of the step, as rows of joints and contacts see it
     Velocity pushed;  ///< by external impulses over the step
     Velocity now;     ///< when the part begins
-    Velocity way;
+    Velocity total;   ///< displacement since the step began
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< since the step began
     Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();      ///< the same
   };
@@ -69,19 +69,19 @@ class Substeps {
   void FindHeld();
   void MoveBodies();
   void MoveMotions();
-  void Turn(const Eigen::Vector3d& spin, Way* way) const;
+  void Turn(const Eigen::Vector3d& spin, Travel* travel) const;
   /// What turns a body at once as the parts of the step did.
-  Eigen::Vector3d MeanSpin(const Way& way) const;
+  Eigen::Vector3d MeanSpin(const Travel& travel) const;
   void Add();
   void AimRows();
   void AimJoints();
   void AimHeld(const Held& held);
   void AimPoints();
-  /// Targets of the part of a row with a target of the whole step that has come some way.
-  double AimBoth(double target, double way) const;
-  double AimOne(double target, double way) const;
+  /// Targets of the part, of a row with a target of the whole step that has travelled so far.
+  double AimBoth(double target, double travelled) const;
+  double AimOne(double target, double travelled) const;
   template <class AnyRow>
-  double Along(const AnyRow& row, int body_a, int body_b, Velocity Way::*what) const;
+  double Along(const AnyRow& row, int body_a, int body_b, Velocity Travel::*what) const;
   double share() const { return 1.0 / parts_; }
 
   ContactProblem whole_;
@@ -99,7 +99,7 @@ class Substeps {
   Array<Velocity> velocities_, means_;
   Array<Velocity> moves_;  ///< of the part, if it was relaxed
   bool relaxed_ = false;
-  Array<Way> ways_;
+  Array<Travel> travels_;
   Array<Held> held_;
   Array<char> is_held_;  ///< by row of a joint
 };

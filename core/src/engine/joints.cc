@@ -45,7 +45,7 @@ double Unwrap(const JointAxis& axis, double angle) {
 }  // namespace
 
 /// The rows of one axis, as vectors of body a; those of b are opposite but for the arm.
-struct Joints::Way {
+struct Joints::Direction {
   HalfRow a, b;
   bool turns;
 };
@@ -101,10 +101,10 @@ int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, s
   for (int i = 0; i < 3; ++i) {
     // both arms end in the anchor of a: the axis turns with b
     const Vector3d axis = View(b.axes).col(i);
-    const Way way{.a = {axis, Between(a.anchor, a.centre).cross(axis)},
-                  .b = {-axis, -Between(a.anchor, b.centre).cross(axis)},
-                  .turns = false};
-    AddAxis(kind.linear[i], way, axis.dot(apart));
+    const Direction direction{.a = {axis, Between(a.anchor, a.centre).cross(axis)},
+                              .b = {-axis, -Between(a.anchor, b.centre).cross(axis)},
+                              .turns = false};
+    AddAxis(kind.linear[i], direction, axis.dot(apart));
   }
   AddCone(kind.cone, a, b);
   const Twist twist = FindTwist(a, b);
@@ -153,17 +153,17 @@ void Joints::Open(const JointSide& a, const JointSide& b) {
   gap_square_ = angle_square_ = 0;
 }
 
-JointRow& Joints::AddRow(const Way& way) {
+JointRow& Joints::AddRow(const Direction& direction) {
   Joint& joint = joints_.back();
-  if (way.turns) joint.angular |= std::uint32_t{1} << joint.rows;
+  if (direction.turns) joint.angular |= std::uint32_t{1} << joint.rows;
   ++joint.rows;
   JointRow& row = rows_.emplace_back();
   const auto put = [](int body, const HalfRow& from, float* linear, float* angular) {
     PutFloats(from.linear, linear);
     PutFloats(body == kWorld ? Vector3d(Vector3d::Zero()) : from.angular, angular);
   };
-  put(joint.body_a, way.a, row.linear_a, row.angular_a);
-  put(joint.body_b, way.b, row.linear_b, row.angular_b);
+  put(joint.body_a, direction.a, row.linear_a, row.angular_a);
+  put(joint.body_b, direction.b, row.linear_b, row.angular_b);
   return row;
 }
 
@@ -175,7 +175,7 @@ void Joints::TakeBack(double error, JointRow* row) {
   row->target = static_cast<float>(-erp_ * error / step_.time_step);
 }
 
-void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
+void Joints::AddAxis(const JointAxis& axis, const Direction& direction, double position) {
   const double h = step_.time_step;
   const auto bound = [this](double lo, double hi, JointRow* row) {
     Joint& joint = joints_.back();
@@ -184,12 +184,12 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     row->hi = static_cast<float>(hi);
   };
   if (axis.lo == axis.hi) {
-    TakeBack(position - axis.lo, &AddRow(way));
+    TakeBack(position - axis.lo, &AddRow(direction));
   } else if (axis.lo > -kInfinity || axis.hi < kInfinity) {
     const bool lower = position - axis.lo <= axis.hi - position;
     const double to_limit = (lower ? axis.lo : axis.hi) - position;
     const bool inside = lower ? to_limit <= 0 : to_limit >= 0;
-    JointRow& row = AddRow(way);
+    JointRow& row = AddRow(direction);
     if (inside) {
       row.target = static_cast<float>(to_limit / h);
     } else {
@@ -198,16 +198,16 @@ void Joints::AddAxis(const JointAxis& axis, const Way& way, double position) {
     lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
   }
   if (axis.max_motor_force > 0) {
-    JointRow& row = AddRow(way);
+    JointRow& row = AddRow(direction);
     row.target = static_cast<float>(axis.speed);
     bound(-h * axis.max_motor_force, h * axis.max_motor_force, &row);
   }
   if (axis.frequency > 0) {
     const Joint& joint = joints_.back();
     const double mobility =
-        Mobility(step_, joint.body_a, way.a) + Mobility(step_, joint.body_b, way.b);
+        Mobility(step_, joint.body_a, direction.a) + Mobility(step_, joint.body_b, direction.b);
     const SoftRow soft = Soften(axis.frequency, axis.damping_ratio, mobility, h);
-    JointRow& row = AddRow(way);
+    JointRow& row = AddRow(direction);
     row.target = static_cast<float>(-soft.share * (position - axis.rest) / h);
     row.compliance = static_cast<float>(soft.compliance);
     joints_.back().soft = true;
@@ -222,7 +222,7 @@ void Joints::AddCone(double cone, const JointSide& a, const JointSide& b) {
   const double angle = ArcTan2(sine, cosine);
   const Vector3d axis = sine > 1e-9 ? Vector3d(across / sine) : Vector3d(View(b.axes).col(1));
   const auto about = [](const Vector3d& u) {
-    return Way{.a = {Vector3d::Zero(), u}, .b = {Vector3d::Zero(), -u}, .turns = true};
+    return Direction{.a = {Vector3d::Zero(), u}, .b = {Vector3d::Zero(), -u}, .turns = true};
   };
   if (cone > 0) {
     if (cone < kPi) AddAxis({.hi = cone}, about(axis), angle);

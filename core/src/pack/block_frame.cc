@@ -165,17 +165,17 @@ PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const 
   crew_ = crew;
   const PackResult whitened = WhitenBodies(problem, crew);
   if (whitened != PackResult::kDone) return whitened;
-  if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kChanged;
-  if (!AreValid(problem, crew)) return PackResult::kChanged;
+  if (!(problem.contact_law.bounce_speed >= 0)) return PackResult::kInvalid;
+  if (!AreValid(problem, crew)) return PackResult::kInvalid;
 
   // the plan of the last frame, if nothing began or ended
-  PackResult result = PackResult::kChanged;
+  PackResult result = PackResult::kStalePlan;
   const bool alike = planned_ && omega == omega_ && problem.rows.size() == planned_rows_ &&
                      movable_now_ == movable_ && SameJointsAndManifolds(problem, crew);
   if (alike) result = Pack(problem, impulses, crew);
-  if (result == PackResult::kChanged) {
+  if (result == PackResult::kStalePlan) {
     planned_ = MakePlan(problem, omega, impulses.rows, crew);
-    if (!planned_) return PackResult::kChanged;
+    if (!planned_) return PackResult::kInvalid;
     PackerOf(problem).Reserve(&blocks_);
     if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
     if (scales_.size() < plan_.islands().size()) scales_.resize(plan_.islands().size());
@@ -218,7 +218,7 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
       movable_now_[i] = MobilityOf(bodies[i]);
       if (bodies[i].strain > 0) strained.store(true, std::memory_order_relaxed);
       if (HasLockedAxes(bodies[i])) locked.store(true, std::memory_order_relaxed);
-      if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kChanged);
+      if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kInvalid);
       if (!FitsFloats(bodies[i], bodies_[i])) worst.Add(PackResult::kOutOfRange);
       if (!contacts) continue;
       const ContactMotion* const motion = problem.motions.empty() ? nullptr : &problem.motions[i];

@@ -18,8 +18,8 @@ namespace cairn {
 /// problem stays, and no memory is asked for unless a frame is larger than all before it.
 class BlockFrame {
  public:
-  /// Lays out the problem, with u from the start impulses. On kChanged the input is not valid, on
-  /// kOutOfRange it may not be: see Validate().
+  /// Lays out the problem, with u from the start impulses, by a new plan where the last one does
+  /// not fit. On kInvalid the input is not valid, on kOutOfRange it may not be: see Validate().
   [[nodiscard]] PackResult Begin(const ContactProblem& problem, double omega,
                                  const Impulses& impulses, Crew* crew);
   /// Whether the results are. What is checked before sweeps leaves little to be found here.

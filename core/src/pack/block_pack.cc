@@ -11,6 +11,7 @@
 #include "pack/joint_pack.h"
 #include "pack/locked_rows.h"
 #include "pack/manifold_pack.h"
+#include "pack/numbers_of.h"
 #include "plan/row_kind.h"
 
 namespace cairn {
@@ -27,10 +28,6 @@ constexpr double kMost = 1e12;
 
 /// J of what is not there.
 constexpr double kNothing[6] = {};
-
-/// The two sides of a row are six numbers each, in the order of SourceRows.
-static_assert(offsetof(Row, angular_a) == offsetof(Row, linear_a) + 3 * sizeof(double));
-static_assert(offsetof(Row, angular_b) == offsetof(Row, linear_b) + 3 * sizeof(double));
 
 /// The row still joins the bodies that it was planned for.
 bool Joins(const Row& row, const Pair& pair, const MovableBodies& movable) {
@@ -93,7 +90,7 @@ void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
 
 std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
-/// The law that most rows have, compared by its bits: checking every field of every row for itself
+/// The kind that most rows have, compared by its bits: checking every field of every row for itself
 /// costs more than packing them.
 class UsualKind {
  public:
@@ -110,9 +107,9 @@ class UsualKind {
   bool Fits(const Row& row, const Pair& pair, int parent) const {
     const int integers = (row.body_a ^ pair.row_a) | (row.body_b ^ pair.row_b) |
                          (row.parent ^ parent) | (row.host.max_sweeps ^ max_sweeps_);
-    const std::uint64_t law = (Bits(row.lo) ^ lo_) | (Bits(row.hi) ^ Bits(kInfinity)) |
-                              (Bits(row.relaxation) ^ Bits(1)) | Bits(row.compliance);
-    const bool same = (static_cast<std::uint32_t>(integers) | law) == 0;
+    const std::uint64_t numbers = (Bits(row.lo) ^ lo_) | (Bits(row.hi) ^ Bits(kInfinity)) |
+                                  (Bits(row.relaxation) ^ Bits(1)) | Bits(row.compliance);
+    const bool same = (static_cast<std::uint32_t>(integers) | numbers) == 0;
     // negative numbers and those that are not finite have larger bits
     return exists_ && same && Bits(row.friction) < Bits(kInfinity) && HasLinearPart(row);
   }
@@ -152,7 +149,7 @@ class OneBlock {
     PutBodies();
     for (int i = 0; i < block_.row_count; ++i) {
       const RowShape& shape = block_.rows[i];
-      if (!ReadRows(i, shape)) return PackResult::kChanged;
+      if (!ReadRows(i, shape)) return PackResult::kStalePlan;
       if (!packer_.pack_row(block_.form, source_, a_, b_, line_)) return PackResult::kOutOfRange;
       line_ += simd::JacobianLines(block_.form) + 2;
       PutKind(shape);
@@ -200,12 +197,12 @@ class OneBlock {
       as_planned = as_planned && (usual.Fits(row, pair, parent) || Fits(row, pair, parent, shape));
 
       const bool straight = row.body_a == pair.a;
-      source_.a[lane] = (straight ? row.linear_a : row.linear_b).data();
-      source_.b[lane] = (straight ? row.linear_b : row.linear_a).data();
+      source_.a[lane] = straight ? SideA(row) : SideB(row);
+      source_.b[lane] = straight ? SideB(row) : SideA(row);
       source_.target.lane[lane] = row.target;
       if (block_.form == PairForm::kSingle) {
-        source_.target.lane[lane] -= VelocityOfUnmoved(row.body_a, pair, row.linear_a) +
-                                     VelocityOfUnmoved(row.body_b, pair, row.linear_b);
+        source_.target.lane[lane] -= VelocityOfUnmoved(row.body_a, pair, SideA(row)) +
+                                     VelocityOfUnmoved(row.body_b, pair, SideB(row));
       }
       bounds_.friction.lane[lane] = row.friction;
     }
@@ -215,12 +212,12 @@ class OneBlock {
 
   /// J v of one side of a row, if that is a body which rows cannot move, as a platform: to the
   /// kernel it is the world. @p side: its linear part, its angular part behind it
-  double VelocityOfUnmoved(int body, const Pair& pair, const Vector3& side) const {
+  double VelocityOfUnmoved(int body, const Pair& pair, const double* side) const {
     const bool is_body = body >= 0 && body < static_cast<int>(packer_.bodies.size());
     if (!is_body || body == pair.a) return 0;
     const Velocity& free = packer_.bodies[body].free;
-    return View(side).dot(View(free.linear)) +
-           Eigen::Map<const Eigen::Vector3d>(side.data() + 3).dot(View(free.angular));
+    using Part = Eigen::Map<const Eigen::Vector3d>;
+    return Part(side).dot(View(free.linear)) + Part(side + 3).dot(View(free.angular));
   }
 
   bool Fits(const Row& row, const Pair& pair, int parent, const RowShape& shape) const {
@@ -298,7 +295,7 @@ class OneBlock {
     simd::DoubleLine friction, lo, hi;
   } bounds_;
   simd::DoubleLine unit_;
-  bool unusual_ = false;  ///< the row has more than the usual law
+  bool unusual_ = false;  ///< the row has more than the usual kind
 };
 
 template <class T>

@@ -25,10 +25,9 @@ struct BlockData {
 /// What became of rows that were to be packed.
 enum class PackResult {
   kDone,
-  /// The problem is not the one that was planned for, or its numbers are not valid.
-  kChanged,
-  /// Out of the range of a float; not valid either, if the plan is an old one.
-  kOutOfRange,
+  kStalePlan,   ///< a row is not as it was planned: to be planned again
+  kInvalid,     ///< a number that no problem may have, or a row of no valid kind
+  kOutOfRange,  ///< of a float; of an old plan, the row may be not valid either
 };
 
 /// Whether rows are to stay inside numbers of the caller's.

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "cairn/detail/prefetch.h"
+#include "pack/numbers_of.h"
 
 namespace cairn {
 namespace {
@@ -54,7 +55,7 @@ PackResult PackJoints(const BlockPacker& packer, int index, const Impulses& star
     lanes.second_moves[lane] = packer.plan.pair(index, used).a != joint.body_a;
     lanes.opposite[lane] = joint.opposite;
     lanes.damping[lane] = joint.damping;
-    lanes.row[lane] = packer.problem.joint_rows[joint.first_row].linear_a;
+    lanes.row[lane] = NumbersOf(packer.problem.joint_rows[joint.first_row]);
     lanes.start[lane] = &start.joint_rows[joint.first_row];
   }
   const bool fits =

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "cairn/detail/prefetch.h"
+#include "pack/numbers_of.h"
 
 namespace cairn {
 namespace {
@@ -100,11 +102,11 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
     lanes.a[lane] = packer.contact_body(manifold.body_a);
     lanes.b[lane] = packer.contact_body(manifold.body_b);
     lanes.second_moves[lane] = pair.a != manifold.body_a;
-    lanes.point[lane] = packer.problem.points[manifold.first_point].arm_a;
-    lanes.start[lane] = &start.points[manifold.first_point].normal;
+    lanes.point[lane] = NumbersOf(packer.problem.points[manifold.first_point]);
+    lanes.start[lane] = NumbersOf(std::as_const(start.points[manifold.first_point]));
     if (!first.twists) continue;
-    lanes.twist[lane] = &packer.problem.twists[manifold.first_point].spinning;
-    lanes.twist_start[lane] = &start.twists[manifold.first_point].spinning;
+    lanes.twist[lane] = NumbersOf(packer.problem.twists[manifold.first_point]);
+    lanes.twist_start[lane] = NumbersOf(std::as_const(start.twists[manifold.first_point]));
   }
   const bool fits =
       packer.contacts.pack(lanes, blocks->data.data() + block.data, blocks->x.data() + block.x,
@@ -125,7 +127,7 @@ void WriteManifolds(const BlockPacker& packer, int index, const BlockData& block
                                .directions = blocks.directions.data() + DirectionsOf(block)};
   for (int lane = 0; lane < block.lanes; ++lane) {
     const Manifold& manifold = ManifoldOf(packer, index, lane);
-    results.to[lane] = &impulses.points[manifold.first_point].normal;
+    results.to[lane] = NumbersOf(impulses.points[manifold.first_point]);
   }
   packer.contacts.unpack(results);
 
@@ -134,13 +136,13 @@ void WriteManifolds(const BlockPacker& packer, int index, const BlockData& block
     const Manifold& manifold = ManifoldOf(packer, index, lane);
     const simd::Line* twist = twists;
     for (int p = 0; p < manifold.points; ++p, twist += simd::kTwistRows) {
-      const ContactTwist& law = packer.problem.twists[manifold.first_point + p];
+      const ContactTwist& limits = packer.problem.twists[manifold.first_point + p];
       const auto x = [&](int k, float most) {
         return std::clamp(twist[k].lane[lane], -most, most);
       };
       impulses.twists[manifold.first_point + p] = {
-          .spinning = x(0, law.most_spinning),
-          .rolling = {x(1, law.most_rolling), x(2, law.most_rolling)}};
+          .spinning = x(0, limits.most_spinning),
+          .rolling = {x(1, limits.most_rolling), x(2, limits.most_rolling)}};
     }
   }
 }

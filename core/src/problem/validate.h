@@ -8,7 +8,7 @@
 namespace cairn {
 
 /// Judges a whole input and names what is wrong with it. The path in double precision relies on
-/// what is checked here. Blocks judge numbers as they are filled (plan/row_law, pack/): what they
+/// what is checked here. Blocks judge numbers as they are filled (plan/row_kind, pack/): what they
 /// refuse comes here. On a status other than kOk, bad_row, bad_body, bad_manifold or bad_joint of
 /// the report names the first offender.
 Report Validate(const ContactProblem& problem, const Impulses& impulses);

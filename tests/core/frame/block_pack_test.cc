@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -261,6 +262,27 @@ TEST(BlockFrame, PlansAgainWhenABodyOfAContactLocksAnAxis) {
   for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
     if (plan.pair(b, 0).b == kWorld) continue;
     EXPECT_EQ(plan.blocks()[b].form, simd::PairForm::kJoint);
+  }
+}
+
+TEST(BlockFrame, SaysWhatIsNotValid) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Change> changes = {
+      {"negative mass", [](Scene* s) { s->bodies[1].inv_mass = -1; }},
+      {"no such body", [](Scene* s) { s->rows[13].body_a = 99; }},
+      {"negative compliance", [](Scene* s) { s->rows[13].compliance = -1; }},
+      {"no bounds", [nan](Scene* s) { s->rows[12].lo = nan; }},
+  };
+  for (const Change& change : changes) {
+    for (const bool steady : {false, true}) {
+      Scene scene = test::Tower(3);
+      Laid laid;
+      if (steady) {
+        ASSERT_EQ(laid.Begin(scene), PackResult::kDone);
+      }
+      change.make(&scene);
+      EXPECT_EQ(laid.Begin(scene), PackResult::kInvalid) << change.what << steady;
+    }
   }
 }
 

@@ -85,7 +85,7 @@ TEST(Steps, ThatAreUndoneLeaveTheBitsOfPlainSweeps) {
 // 5 sweeps, a step, 5 sweeps. The step was compared with 5 sweeps alone, so the end is no worse
 // than 10 plain sweeps: its residual is no larger, or it is closer in energy and at most four times
 // as rough. There is one exception, by design: a step that brought the
-// residual to a tenth (kSureGain, cycle.cc) is kept without the comparison. In longer runs nothing
+// residual to a tenth (kSureGain, island_cycle.cc) is kept without the comparison. In longer runs nothing
 // is promised: each comparison starts where the last one ended. Under a budget friction has no
 // sweep of its own in the end, which was not compared.
 TEST(Steps, NeverEndOneCycleWorseThanPlainSweeps) {
@@ -112,8 +112,8 @@ TEST(Steps, NeverEndOneCycleWorseThanPlainSweeps) {
   EXPECT_GT(better, 20);
 }
 
-// By the rule of the cycle: steps come after every second leg of k_gs sweeps.
-TEST(Steps, ComeAfterEverySecondLegAndNeedThreeSweepsAfterThem) {
+// By the rule of the cycle: steps come after every second round of k_gs sweeps.
+TEST(Steps, ComeAfterEverySecondRoundAndNeedThreeSweepsAfterThem) {
   const Scene tower = test::Tower(3);
   for (const auto& [sweeps, steps] :
        {std::pair(0, 0), {5, 0}, {7, 0}, {8, 1}, {10, 1}, {17, 1}, {18, 2}, {25, 2}, {30, 3}}) {

@@ -21,7 +21,7 @@ using std::chrono::nanoseconds;
 using test::Scene;
 using test::Solution;
 
-/// Rows between two looks at the budget (kBlockRows, cycle.cc).
+/// Rows between two looks at the budget (kBlockRows, island_cycle.cc).
 constexpr int kBlock = 256;
 /// The same in blocks: a claim of a thread (kUnitRows, plan.cc) and the rest of its last block.
 constexpr int kUnit = 2048;

@@ -53,7 +53,7 @@ class GroupRows {
   void ReadBodies(const RowPools& pools);
   void ReadJoints(const RowPools& pools, const btContactSolverInfo& info, SweepLimits limits);
   void ReadContacts(const RowPools& pools, const btContactSolverInfo& info, SweepLimits limits);
-  int ReadRow(const RowPools& pools, const Row& law, btSolverConstraint* source);
+  int ReadRow(const RowPools& pools, const Row& common, btSolverConstraint* source);
 
   std::vector<Body> bodies_;
   std::vector<Row> rows_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "contacts/contact_rows.h"
+#include "contacts/contact_row_builder.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ double Target(btScalar speed) { return std::clamp<double>(speed, -kMostTarget, k
 
 }  // namespace
 
-ContactLaw::ContactLaw(const btContactSolverInfo& info, SweepLimits limits)
+ContactTerms::ContactTerms(const btContactSolverInfo& info, SweepLimits limits)
     : time_step(info.m_timeStep),
       restitution_threshold(info.m_restitutionVelocityThreshold),
       splits(info.m_splitImpulse != 0),
@@ -77,7 +77,7 @@ btScalar ContactRowBuilder::Bounce(const ContactInput& input, const Axes& axes) 
   if (!(input.restitution > 0)) return 0;
   const btScalar speed = axes.linear_a.dot(a_.velocity) + axes.angular_a.dot(a_.spin) +
                          axes.linear_b.dot(b_.velocity) + axes.angular_b.dot(b_.spin);
-  if (btFabs(speed) < law_.restitution_threshold) return 0;
+  if (btFabs(speed) < terms_.restitution_threshold) return 0;
   return btMax(btScalar(0), -input.restitution * speed);
 }
 
@@ -93,13 +93,13 @@ int ContactRowBuilder::AppendNormal(const ContactInput& input) {
                          axes.linear_b.dot(b_.driven) + axes.angular_b.dot(b_.driven_spin);
   btScalar target = Bounce(input, axes) - speed;
   if (input.distance > 0) {
-    target -= input.distance / law_.time_step;
+    target -= input.distance / terms_.time_step;
   } else {
-    const btScalar out = -input.distance * input.erp / law_.time_step;
-    if (!law_.splits || input.distance > law_.split_threshold) {
+    const btScalar out = -input.distance * input.erp / terms_.time_step;
+    if (!terms_.splits || input.distance > terms_.split_threshold) {
       target += out;
     } else if (out != 0) {
-      pushes_->Add({row_.body_a, row_.body_b, axes, out, input.compliance}, law_.over_relaxation,
+      pushes_->Add({row_.body_a, row_.body_b, axes, out, input.compliance}, terms_.over_relaxation,
                    bodies_);
     }
   }
@@ -122,7 +122,7 @@ void ContactRowBuilder::AppendFriction(const ContactInput& input, int tangents, 
     if (input.slip == 0) continue;
     // Bullet has it in units of its step
     row.compliance =
-        input.slip / law_.over_relaxation *
+        input.slip / terms_.over_relaxation *
         (ContactDiagonal(a_.rigid, axes.angular_a) + ContactDiagonal(b_.rigid, axes.angular_b));
   }
 }

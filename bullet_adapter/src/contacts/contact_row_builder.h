@@ -13,8 +13,8 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
 /// What the contacts of a group share.
-struct ContactLaw {
-  ContactLaw(const btContactSolverInfo& info, SweepLimits limits);
+struct ContactTerms {
+  ContactTerms(const btContactSolverInfo& info, SweepLimits limits);
 
   btScalar time_step;              ///< [s]
   btScalar restitution_threshold;  ///< Nothing bounces below this speed [m/s].
@@ -30,9 +30,9 @@ class ContactRowBuilder {
  public:
   /// All must outlive the builder. Deep penetration goes to @p pushes instead of the target of its
   /// normal.
-  ContactRowBuilder(const ContactLaw& law, const BodyTable& bodies, GroupProblem* group,
+  ContactRowBuilder(const ContactTerms& terms, const BodyTable& bodies, GroupProblem* group,
                     SplitImpulse* pushes)
-      : law_(law), bodies_(bodies), group_(group), pushes_(pushes), row_(law.row) {}
+      : terms_(terms), bodies_(bodies), group_(group), pushes_(pushes), row_(terms.row) {}
 
   void Append(const ManifoldInput& manifold);
 
@@ -55,7 +55,7 @@ class ContactRowBuilder {
   void AppendFriction(const ContactInput& input, int tangents, PointRows* rows);
   void AppendTwists(const ContactInput& input, PointRows* rows);
 
-  const ContactLaw& law_;
+  const ContactTerms& terms_;
   const BodyTable& bodies_;
   GroupProblem* group_;
   SplitImpulse* pushes_;
