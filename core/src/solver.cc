@@ -20,13 +20,11 @@
 #include "reference/island_cycle.h"
 #include "reference/pack.h"
 #include "reference/residual.h"
+#include "report_sums.h"
 #include "runtime/budget.h"
 
 namespace cairn {
 namespace {
-
-/// Which of two reasons says more about why the whole did not get further.
-StopReason WorseOf(StopReason a, StopReason b) { return std::max(a, b); }
 
 bool InBlocks(const ContactProblem& problem, const Settings& settings) {
   // joints and manifolds become blocks with the step length of Gauss-Seidel only
@@ -48,49 +46,10 @@ Budget ShareOf(const Budget& budget, const Report& spent, std::chrono::nanosecon
   return budget;
 }
 
-/// Adds what was done in a part of a step on an island. What is said of its state is of the last.
-void Add(const IslandReport& part, IslandReport* sum) {
-  const IslandReport before = *sum;
-  *sum = part;
-  sum->residual_before = before.residual_before;
-  sum->merit += before.merit;
-  sum->guards.start |= before.guards.start;
-  sum->guards.step |= before.guards.step;
-  sum->guards.result |= before.guards.result;
-  sum->sweeps += before.sweeps;
-  sum->factorisations += before.factorisations;
-  sum->steps_accepted += before.steps_accepted;
-  sum->steps_restored += before.steps_restored;
-  sum->step_work += before.step_work;
-  sum->stop = WorseOf(before.stop, part.stop);
-}
-
-/// The same of all of them, which are those of the part before.
-void Add(const Report& part, Report* sum) {
-  sum->path = std::max(sum->path, part.path);
-  sum->work += part.work;
-  sum->step_predicted += part.step_predicted;
-  sum->step_time += part.step_time;
-  sum->island_of = part.island_of;
-  const bool alike = sum->islands.size() == part.islands.size();
-  if (!alike) sum->islands = part.islands;
-  for (size_t i = 0; i < part.islands.size() && alike; ++i) Add(part.islands[i], &sum->islands[i]);
-}
-
 BudgetMeter MeterOf(const Settings& settings, const ContactProblem& problem, WorkPrices* prices) {
   if (settings.tuning.replay != nullptr) return BudgetMeter(*settings.tuning.replay, prices);
   return BudgetMeter(settings.budget, static_cast<double>(AllRows(problem)), prices,
                      settings.tuning.clock);
-}
-
-/// Report::bad_row and its like, from one who looked.
-void CopyJudgement(const Report& checked, Report* report) {
-  report->status = checked.status;
-  report->bad_setting = checked.bad_setting;
-  report->bad_row = checked.bad_row;
-  report->bad_body = checked.bad_body;
-  report->bad_manifold = checked.bad_manifold;
-  report->bad_joint = checked.bad_joint;
 }
 
 /// Wall clock since it was made.
@@ -104,55 +63,11 @@ class StopWatch {
   Clock::time_point begin_ = Clock::now();
 };
 
-/// All but its memory.
-void ForgetReport(Report* report) {
-  Array<IslandReport> islands = std::move(report->islands);
-  Array<int> island_of = std::move(report->island_of);
-  Replay replay = std::move(report->replay);
-  islands.clear();
-  island_of.clear();
-  replay.fits.clear();
-  replay.work = Replay{}.work;
-  *report = Report{};
-  report->islands = std::move(islands);
-  report->island_of = std::move(island_of);
-  report->replay = std::move(replay);
-}
-
 /// False, and the report says why, if a setting is out of its range.
 bool Accept(const Settings& settings, Report* report) {
   report->bad_setting = FindBadSetting(settings);
   if (report->bad_setting.name != nullptr) report->status = Status::kBadSettings;
   return report->ok();
-}
-
-/// Says which bodies are strained most, and what would help. @p substeps: those of the bodies
-void TellStrains(std::span<const Body> bodies, int substeps, Report* report) {
-  constexpr double kCalm = 2;  // below, stiffness leaves bodies alone
-  for (size_t i = 0; i < bodies.size(); ++i) {
-    const int at = report->island_of[i];
-    if (at < 0 || !(bodies[i].strain > report->islands[at].strain)) continue;
-    IslandReport& island = report->islands[at];
-    island.strain = bodies[i].strain;
-    island.strained_body = static_cast<int>(i);
-    // strain falls with the square of the number of parts
-    const double enough = std::ceil(substeps * std::sqrt(island.strain / kCalm));
-    island.enough_substeps = static_cast<int>(std::clamp(enough, 1.0, 1e6));
-  }
-}
-
-/// Adds up what was done on the islands.
-void SumUp(Report* report) {
-  report->stop = report->islands.empty() ? StopReason::kConverged : StopReason::kNotStarted;
-  for (const IslandReport& island : report->islands) {
-    Accumulate(island.residual, report);
-    report->sweeps = std::max(report->sweeps, island.sweeps);
-    report->factorisations += island.factorisations;
-    report->steps_accepted += island.steps_accepted;
-    report->steps_restored += island.steps_restored;
-    report->guarded += island.guards.any() ? 1 : 0;
-    report->stop = WorseOf(report->stop, island.stop);
-  }
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ enum class PackResult {
   kDone,
   kStalePlan,   ///< a row is not as it was planned: to be planned again
   kInvalid,     ///< a number that no problem may have, or a row of no valid kind
-  kOutOfRange,  ///< of a float; of an old plan, the row may be not valid either
+  kOutOfRange,  ///< of a float, be it valid or not: Validate() tells
 };
 
 /// Whether rows are to stay inside numbers of the caller's.

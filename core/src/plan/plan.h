@@ -27,6 +27,11 @@ struct PlannedIsland {
 /// of a group are side by side, and shared with no other. Runs of a large one are its blocks, one
 /// by one; those of small ones share blocks, whatever their colours.
 struct Group {
+  /// Small islands share groups of at most so many rows: blocks, impulses and bodies of a group
+  /// then fit the first two levels of the cache, its lanes are full, and a budget is exceeded by no
+  /// more. Larger islands are swept by colours.
+  static constexpr int kSharedRows = 2048;
+
   int first_block = 0, blocks = 0;
   int first_run = 0, runs = 0;
   int first_x = 0, x_lines = 0;

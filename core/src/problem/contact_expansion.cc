@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problem/float_vectors.h"
 #include "problem/whitening.h"
 
 namespace cairn {
@@ -16,8 +17,6 @@ using Eigen::Vector3d;
 constexpr double kLeastSlide = 1.1920929e-7;
 
 double Dot(const Vector3& a, const Vector3& b) { return View(a).dot(View(b)); }
-
-Vector3d ToVector(const float* from) { return {from[0], from[1], from[2]}; }
 
 /// Of any length whose square may not fit. Zero stays zero.
 Vector3d Normalized(const Vector3d& v) {

@@ -268,7 +268,6 @@ TEST(BlockFrame, PlansAgainWhenABodyOfAContactLocksAnAxis) {
 TEST(BlockFrame, SaysWhatIsNotValid) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<Change> changes = {
-      {"negative mass", [](Scene* s) { s->bodies[1].inv_mass = -1; }},
       {"no such body", [](Scene* s) { s->rows[13].body_a = 99; }},
       {"negative compliance", [](Scene* s) { s->rows[13].compliance = -1; }},
       {"no bounds", [nan](Scene* s) { s->rows[12].lo = nan; }},
