@@ -85,9 +85,9 @@ TEST(Steps, ThatAreUndoneLeaveTheBitsOfPlainSweeps) {
 // 5 sweeps, a step, 5 sweeps. The step was compared with 5 sweeps alone, so the end is no worse
 // than 10 plain sweeps: its residual is no larger, or it is closer in energy and at most four times
 // as rough. There is one exception, by design: a step that brought the
-// residual to a tenth (kSureGain, island_cycle.cc) is kept without the comparison. In longer runs nothing
-// is promised: each comparison starts where the last one ended. Under a budget friction has no
-// sweep of its own in the end, which was not compared.
+// residual to a tenth (kSureGain, island_cycle.cc) is kept without the comparison. In longer runs
+// nothing is promised: each comparison starts where the last one ended. Under a budget friction has
+// no sweep of its own in the end, which was not compared.
 TEST(Steps, NeverEndOneCycleWorseThanPlainSweeps) {
   int compared = 0, better = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
