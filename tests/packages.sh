@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Whether a game can be made with the Debian packages alone: installs those of a folder (default out/debs), compiles the
-# example of the two changed lines outside of this tree by g++ and pkg-config, and runs it; then asks the tool for the
-# golden answers, and compares the interface of libcairn with the one that is kept.
+# example of the two changed lines, and a program in C, outside of this tree by pkg-config, and runs them and a script in
+# Python; then asks the tool for the golden answers, and compares what the libraries show with what is kept.
 #   bash tests/packages.sh [--keep] [FOLDER]
 # Takes the packages out again, unless --keep says not to.
 set -euo pipefail
@@ -19,6 +19,7 @@ trap take_out EXIT
 
 place="$(mktemp -d)"
 cp examples/bullet_swap.cc "$place/game.cc"
+cp examples/tower.c examples/python/*.py "$place"
 (
   cd "$place"
   for package in cairn-bullet cairn-bullet-float64; do
@@ -26,7 +27,12 @@ cp examples/bullet_swap.cc "$place/game.cc"
     g++ game.cc $(pkg-config --cflags --libs "$package") -o "$package"
     "./$package"
   done
+  # shellcheck disable=SC2046
+  cc -std=c11 tower.c $(pkg-config --cflags --libs cairn-c) -o tower
+  ./tower
+  if python3 -c 'import numpy' 2>/dev/null; then python3 -B error_against_sweeps.py; fi
 )
+python3 -B tests/checks/exports.py "/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH)"
 cairn doctor --verify
 cairn list scenes >/dev/null
 rm -rf "$place"

@@ -101,6 +101,25 @@ class Consumer:
             call([program], env=dict(os.environ, LD_LIBRARY_PATH=os.path.join(
                 self.prefix, self.args.libdir)))
 
+    def strict_hosts(self):
+        # engines without exceptions and types at run time, and with every warning
+        os.makedirs(self.folder, exist_ok=True)
+        for example, package in (("embed.cc", "cairn"), ("tower.c", "cairn-c")):
+            options = ["-Wall", "-Wextra", "-pedantic", "-Werror"]
+            if example.endswith(".cc"):
+                options += ["-fno-exceptions", "-fno-rtti"]
+            program = os.path.join(self.folder, package)
+            call(self.compile_command(example, package, program, *options))
+            call([program], env=dict(os.environ, LD_LIBRARY_PATH=os.path.join(self.prefix, self.args.libdir)))
+
+    def python(self):
+        # as a script beside a game would
+        if subprocess.run([sys.executable, "-c", "import numpy"], capture_output=True).returncode != 0:
+            print("NumPy is missing, skipped")
+            return
+        library = os.path.join(self.prefix, self.args.libdir, "libcairn-c.so")
+        call([sys.executable, "-B", os.path.join(EXAMPLES, "python", "error_against_sweeps.py"), "--library", library])
+
     def c_alone(self):
         # of a static Cairn, that is; a shared one brings its own libraries with it
         shutil.rmtree(self.folder, ignore_errors=True)
