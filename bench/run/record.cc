@@ -20,7 +20,7 @@ RecordedFrame Look(const std::string& path) {
   }
   return {.path = path,
           .bodies = static_cast<int>(recording.bodies.size()),
-          .joint_rows = static_cast<int>(recording.rows.size()),
+          .joint_rows = static_cast<int>(recording.rows.size() + recording.joint_rows.size()),
           .points = static_cast<int>(recording.points.size()),
           .bytes = std::filesystem::file_size(path)};
 }

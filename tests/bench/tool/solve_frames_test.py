@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import sys
 import unittest
 import xml.etree.ElementTree
@@ -35,6 +36,13 @@ class FramesTest(cli_test.CairnTest):
         # nothing was begun
         self.assertEqual(os.listdir(self.path("frames")), [os.path.basename(path)])
         self.assertIn(path, self.fine(*command, "--force"))
+
+    def test_record_counts_the_rows_that_solve_counts(self):
+        recorded = self.fine("record", "chain", "--frames", "20", "-o", self.path("frames"))
+        solved = self.fine("solve", self.path("frames"), "--max-sweeps", "1", "--errors", "none")
+        rows = re.search(r"\((\d+) of joints and others", solved).group(1)
+        self.assertGreater(int(rows), 0)
+        self.assertIn(f", {rows} rows of joints and others, ", recorded)
 
     def test_list_says_what_each_solver_takes(self):
         solvers = json.loads(self.fine("list", "solvers", "--json"))
