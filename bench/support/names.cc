@@ -9,6 +9,14 @@
 #include "support/failure.h"
 
 namespace cairn::cli {
+namespace {
+
+/// All options begin with them: they say nothing of how near two are.
+std::string_view WithoutDashes(std::string_view word) {
+  return word.substr(std::min(word.find_first_not_of('-'), word.size()));
+}
+
+}  // namespace
 
 int EditDistance(std::string_view a, std::string_view b) {
   // Optimal string alignment; three rows of its table are enough.
@@ -30,10 +38,11 @@ int EditDistance(std::string_view a, std::string_view b) {
 }
 
 std::string DidYouMean(std::string_view word, std::span<const std::string> names) {
-  int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  const std::string_view letters = WithoutDashes(word);
+  int least = static_cast<int>(letters.size()) / 3 + 1;
   std::string nearest;
   for (const std::string& name : names) {
-    const int distance = EditDistance(word, name);
+    const int distance = EditDistance(letters, WithoutDashes(name));
     if (distance >= least) continue;
     least = distance;
     nearest = name;

@@ -12,7 +12,7 @@ namespace cairn::cli {
 int EditDistance(std::string_view a, std::string_view b);
 
 /// "did you mean 'castle'? " with the name nearest to `word`, or nothing if none is close: up to a
-/// third of its letters may be wrong.
+/// third of its letters may be wrong, dashes before an option not counted.
 std::string DidYouMean(std::string_view word, std::span<const std::string> names);
 
 /// The index of the name that a user means by `word`: the name itself, or a prefix that no other

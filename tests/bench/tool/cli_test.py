@@ -127,6 +127,11 @@ class RefusalTest(CairnTest):
             self.assertIn(all_of_them, message)
             self.assertNotIn("did you mean", message)
 
+    def test_what_differs_in_every_other_letter_is_not_suggested(self):
+        self.assertIn("did you mean 'car'?", self.refused(USAGE, "run", "cat"))
+        message = self.refused(USAGE, "run", "small", "--size", "3")
+        self.assertIn("unknown option '--size': 'cairn run small --help'", message)
+
     def test_a_budget_that_is_no_time_is_explained(self):
         for text, why in (("2", "no unit"), ("2mz", "'mz'"), ("-2ms", "not more than 0"),
                           ("0ms", "not more than 0"), ("2h", "'h'"), ("ms", "number"),
