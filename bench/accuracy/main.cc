@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accuracy/command.h"
+#include "support/arguments.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/output_file.h"
@@ -21,14 +22,10 @@ int Main(int count, char** arguments) {
   app.require_subcommand(1);
   const cli::Command commands[] = {AddStatesCommand(&app), AddLoopCommand(&app),
                                    AddGridCommand(&app), AddTensionCommand(&app)};
-  try {
-    app.parse(count, arguments);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? cli::kFine : cli::kUsage;
-  }
-  const std::string typed = cli::WithoutPaths(app.get_name(), {arguments + 1, arguments + count});
+  const cli::Arguments typed = {arguments + 1, arguments + count};
+  if (!cli::Read(cli::SpellOut(app, typed), &app)) return cli::kFine;
   for (const cli::Command& command : commands) {
-    if (command.app->parsed()) return command.action(typed);
+    if (command.app->parsed()) return command.action(cli::WithoutPaths(app.get_name(), typed));
   }
   return cli::kUsage;
 }

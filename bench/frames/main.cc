@@ -11,7 +11,9 @@
 
 #include "CLI/CLI.hpp"
 #include "frames/experiments.h"
+#include "support/arguments.h"
 #include "support/command_line.h"
+#include "support/failure.h"
 #include "support/statistics.h"
 
 namespace cairn::frames {
@@ -187,8 +189,9 @@ int Main(int count, char** arguments) {
   AddScenes(deadlines_app, &deadline_scenes);
   AddDeadlines(deadlines_app, &deadlines);
 
-  CLI11_PARSE(app, count, arguments);
-  const std::string command = cli::WithoutPaths("cairn_frames", {arguments + 1, arguments + count});
+  const cli::Arguments typed = {arguments + 1, arguments + count};
+  if (!cli::Read(cli::SpellOut(app, typed), &app)) return cli::kFine;
+  const std::string command = cli::WithoutPaths("cairn_frames", typed);
   if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
   if (budget_app->parsed()) {
     budget.scenes = ParseScenes(budget_scenes);
@@ -253,8 +256,11 @@ Settings Sweeps(int count, int threads) {
 int main(int count, char** arguments) {
   try {
     return cairn::frames::Main(count, arguments);
+  } catch (const cairn::cli::Failure& failure) {
+    fmt::print(stderr, "cairn_frames: {}\n", failure.what());
+    return failure.code();
   } catch (const std::exception& error) {
     fmt::print(stderr, "cairn_frames: {}\n", error.what());
-    return 2;
+    return cairn::cli::kUsage;
   }
 }

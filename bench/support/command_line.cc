@@ -26,6 +26,8 @@ std::string TakePrecision(std::vector<std::string>* arguments) {
     const std::string& word = (*arguments)[i];
     if (word == "--float64") {
       precision = "float64";
+    } else if (word.starts_with("--float64=")) {
+      throw Failure(kUsage, "--float64 stands alone, without a value");
     } else if (word == kOption) {
       precision = CheckPrecision(i + 1 < arguments->size() ? (*arguments)[++i] : "");
     } else if (word.starts_with(kWithValue)) {
@@ -36,15 +38,6 @@ std::string TakePrecision(std::vector<std::string>* arguments) {
   }
   *arguments = rest;
   return precision;
-}
-
-void CompleteCommand(const std::vector<std::string>& commands,
-                     std::vector<std::string>* arguments) {
-  for (std::string& word : *arguments) {
-    if (word.starts_with("-")) continue;
-    word = commands[FindName("command", word, commands, "'cairn --help' shows all")];
-    return;
-  }
 }
 
 std::string WithoutPaths(std::string_view program, const std::vector<std::string>& arguments) {

@@ -14,10 +14,6 @@ namespace cairn::cli {
 /// @return the precision asked for, or "" if none was. @throws Failure (kUsage)
 std::string TakePrecision(std::vector<std::string>* arguments);
 
-/// Replaces the command, the first argument that is not an option, by its full name.
-/// @throws Failure (kUsage) if it is none of `commands`.
-void CompleteCommand(const std::vector<std::string>& commands, std::vector<std::string>* arguments);
-
 /// A program and its arguments as they can be shown to others: of paths, only the last part.
 std::string WithoutPaths(std::string_view program, const std::vector<std::string>& arguments);
 

@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <utility>
 
 #include "CLI/CLI.hpp"
+#include "support/arguments.h"
 #include "support/command.h"
 #include "support/command_line.h"
 #include "support/failure.h"
@@ -17,31 +19,6 @@
 
 namespace cairn::cli {
 namespace {
-
-using Arguments = std::vector<std::string>;
-
-/// "cairn run small"
-std::string FullName(const CLI::App& command) {
-  const CLI::App* const parent = command.get_parent();
-  return parent == nullptr ? command.get_name() : FullName(*parent) + " " + command.get_name();
-}
-
-/// CLI11 leaves what it does not know to us, so that the answer can name the nearest option.
-void RefuseUnknown(const CLI::App& command) {
-  const Arguments unknown = command.remaining();
-  if (unknown.empty()) return;
-  Arguments names;
-  for (const CLI::Option* option : command.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  const std::string word = unknown.front().substr(0, unknown.front().find('='));
-  if (!word.starts_with("-") || names.empty()) {
-    throw Failure(
-        kUsage, fmt::format("'{}' is not expected here; see '{} --help'", word, FullName(command)));
-  }
-  throw Failure(kUsage, fmt::format("unknown option '{}': {}'{} --help' shows all", word,
-                                    DidYouMean(word, names), FullName(command)));
-}
 
 /// The command that was asked for: itself, or the one of its parts.
 const Command& AskedFor(const Command& command) {
@@ -56,16 +33,6 @@ const Command& AskedFor(const Command& command) {
     return AskedFor(part);
   }
   return command;
-}
-
-void AllowExtras(const Command& command) {
-  command.app->allow_extras();
-  for (const Command& part : command.parts) AllowExtras(part);
-}
-
-int RefuseSyntax(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);  // help or version was asked for
-  throw Failure(kUsage, error.what());
 }
 
 Command AddDoctor(CLI::App* app) {
@@ -120,13 +87,6 @@ Command AddPlay(CLI::App* app) {
   return {play, [](const std::string&) { return kUsage; }};
 }
 
-/// `cairn` alone shows what there is, `cairn help run` is `cairn run --help`.
-void TakeHelp(Arguments* arguments) {
-  const bool help = !arguments->empty() && arguments->front() == "help";
-  if (help) arguments->erase(arguments->begin());
-  if (help || arguments->empty()) arguments->push_back("--help");
-}
-
 int Main(Arguments arguments) {
   const std::string precision = TakePrecision(&arguments);
   const Arguments typed = arguments;
@@ -135,6 +95,9 @@ int Main(Arguments arguments) {
   CLI::App app("Cairn: constraint solvers for game physics under a frame budget, measured.",
                "cairn");
   app.set_version_flag("--version", CAIRN_VERSION);
+  // taken out before, and named to whoever misspells them
+  app.add_flag("--float64")->group("");
+  app.add_flag("--precision")->group("");
   app.require_subcommand(1);
   app.footer(
       "--float64, or --precision float64, with any command but play: with Bullet in double "
@@ -142,29 +105,16 @@ int Main(Arguments arguments) {
       "'cairn COMMAND --help' or 'cairn help COMMAND' says more, 'cairn list' what there is to "
       "run.\n"
       "First tries: cairn run tower --budget 2ms, cairn solve journal-bearing");
-  TakeHelp(&arguments);
   const Command commands[] = {AddDoctor(&app),        AddList(&app),
                               AddRunCommand(&app),    AddCompareCommand(&app),
                               AddRecordCommand(&app), AddSolveCommand(&app),
                               AddWorldsCommand(&app), AddPlay(&app)};
-  Arguments names;
-  for (const Command& command : commands) {
-    AllowExtras(command);
-    names.push_back(command.app->get_name());
-  }
-  CompleteCommand(names, &arguments);
+  arguments = SpellOut(app, std::move(arguments));
   if (arguments.front() == "play") ContinueAsPlay({arguments.begin() + 1, arguments.end()});
-  try {
-    app.parse(Arguments(arguments.rbegin(), arguments.rend()));
-  } catch (const CLI::ParseError& error) {
-    return RefuseSyntax(app, error);
-  }
+  if (!Read(arguments, &app)) return kFine;
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
-    const Command& asked = AskedFor(command);
-    RefuseUnknown(*command.app);
-    RefuseUnknown(*asked.app);
-    return asked.action(WithoutPaths("cairn", typed));
+    return AskedFor(command).action(WithoutPaths("cairn", typed));
   }
   return kUsage;
 }

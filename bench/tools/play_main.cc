@@ -5,6 +5,7 @@
 #include "CLI/CLI.hpp"
 #include "contestants/solver_registry.h"
 #include "play/view/app.h"
+#include "support/arguments.h"
 #include "support/command.h"
 #include "support/command_line.h"
 #include "support/duration.h"
@@ -86,12 +87,7 @@ int Main(int count, char** arguments) {
   add("--video", &options.video, "Writes all pictures, numbered", "DIR");
   add("--commands", &options.commands, "Does what the file says, a command a line", "FILE");
   add("--window", &words.window, "Size of the window; default 1440x810", "WxH");
-  try {
-    app.parse(count, arguments);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    throw Failure(kUsage, error.what());
-  }
+  if (!cli::Read({arguments + 1, arguments + count}, &app)) return cli::kFine;
   App(Check(words, options)).Run();
   return cli::kFine;
 }

@@ -62,8 +62,8 @@ RunOptions Check(const RunWords& words) {
   }
   if (options.scenes.empty()) {
     throw Failure(kUsage,
-                  "run needs a scene ('cairn list scenes' shows all), or a world that "
-                  "Bullet saved: --import FILE");
+                  "cairn run needs SCENE, as in 'cairn run tower' ('cairn list scenes' shows all), "
+                  "or a world that Bullet saved: --import FILE");
   }
   options.solvers = ParseSolvers(words.solvers);
   options.frames = ParseInt("--frames", words.frames, 1, 1'000'000, "frames of 1/60 s to simulate");

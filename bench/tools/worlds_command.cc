@@ -50,7 +50,11 @@ std::vector<std::uint64_t> ParseSeeds(const WorldsWords& words) {
     return {static_cast<std::uint64_t>(
         ParseCount("--seed", words.seed, 0, kMostSeed, "the number of a world"))};
   }
-  if (words.seeds.empty()) throw Failure(kUsage, "worlds needs --seeds FROM:TO, or --seed N");
+  if (words.seeds.empty()) {
+    throw Failure(kUsage,
+                  "cairn worlds needs --seeds FROM:TO or --seed N, as in 'cairn worlds --seeds "
+                  "0:100'; 'cairn help worlds' says more");
+  }
   const size_t colon = words.seeds.find(':');
   if (colon == std::string::npos) {
     throw Failure(kUsage, fmt::format("--seeds '{}' is no range: write FROM:TO, such as 0:400, "

@@ -48,6 +48,30 @@ class AccuracyTest(unittest.TestCase):
         self.assertTrue(math.isfinite(value) and value > 0, value)
 
 
+class UsageTest(AccuracyTest):
+    def test_alone_it_shows_what_there_is(self):
+        alone, asked = accuracy(), accuracy("--help")
+        self.assertEqual((alone.returncode, alone.stderr), (FINE, ""))
+        self.assertIn("tension", alone.stdout)
+        self.assertEqual(alone.stdout, asked.stdout)
+        self.assertEqual(accuracy("help", "grid").stdout, accuracy("grid", "--help").stdout)
+
+    def test_what_cannot_be_is_a_sentence_that_says_where_help_is(self):
+        for words, why in ((["states", "--quiet"], "unknown option '--quiet'"),
+                           (["states", "--seed"], "--seed needs a value, such as '--seed 10'"),
+                           (["states", "--seed", "x"], "--seed 'x': not understood, write '--seed 10'"),
+                           (["states", "--frames", "0"],
+                            "--frames '0': write a number from 4 to 1000000 (Frames of each scene)"),
+                           (["grid", "--policy", "never"], "--policy 'never': write always or"),
+                           (["--bogus"], "unknown option '--bogus'"),
+                           (["--seed", "3", "states"], "--seed comes after the command"),
+                           (["sates"], "unknown command 'sates': did you mean 'states'?")):
+            message = self.refused(USAGE, *words)
+            self.assertTrue(message.startswith("cairn_accuracy: " + why), message)
+            self.assertRegex(message, r"'cairn_accuracy( help \w+' says more| \w+ --help' shows all|"
+                                      r"' shows what there is| --help' shows all)\n$")
+
+
 class StatesTest(AccuracyTest):
     def test_a_chain_has_a_converged_reference_and_finite_errors(self):
         text, written = self.run_json("states", "--scenes", "chain", "--frames", "24", "--samples",
@@ -103,7 +127,6 @@ class StatesTest(AccuracyTest):
         self.assertIn("--frames", self.refused(USAGE, "states", "--frames", "none"))
         self.assertIn("cannot write",
                       self.refused(BAD_INPUT, "states", "--json", "/no/such/folder/r.json"))
-        self.assertTrue(self.refused(USAGE))
 
 
 class LoopTest(AccuracyTest):

@@ -80,6 +80,8 @@ class HelpTest(CairnTest):
 
     def test_help_is_a_command_too(self):
         self.assertEqual(self.fine("help"), self.fine("--help"))
+        self.assertEqual(self.fine("help", "help"), self.fine("--help"))
+        self.assertEqual(self.fine("help", "run", "small"), self.fine("run", "small", "--help"))
         self.assertEqual(self.fine("help", "run"), self.fine("run", "--help"))
         self.assertIn("unknown command 'nope'", self.refused(USAGE, "help", "nope"))
 
@@ -131,6 +133,52 @@ class RefusalTest(CairnTest):
         self.assertIn("did you mean 'car'?", self.refused(USAGE, "run", "cat"))
         message = self.refused(USAGE, "run", "small", "--size", "3")
         self.assertIn("unknown option '--size': 'cairn run small --help'", message)
+
+    def test_an_unknown_option_before_the_command_is_named(self):
+        for word in ("--bogus", "-v", "--"):
+            self.assertEqual(self.refused(USAGE, word),
+                             f"cairn: unknown option '{word}': 'cairn' shows what there is\n")
+        for word, meant in (("--verison", "--version"), ("--flaot64", "--float64")):
+            self.assertEqual(self.refused(USAGE, word, "run"),
+                             f"cairn: unknown option '{word}': did you mean '{meant}'? 'cairn' shows "
+                             "what there is\n")
+
+    def test_an_option_of_a_command_comes_after_it(self):
+        self.assertEqual(self.refused(USAGE, "--budget", "2ms", "run", "tower"),
+                         "cairn: --budget comes after the command, as in 'cairn run tower --budget "
+                         "2ms'; 'cairn' shows what there is\n")
+        self.assertIn("'cairn solve slider --budget 2ms'",
+                      self.refused(USAGE, "--budget=2ms", "solve", "slider"))
+
+    def test_what_is_missing_is_named_with_an_example_and_where_help_is(self):
+        for words, missing, example in (
+                (("compare",), "OLD.json and NEW.json", "cairn compare old.json new.json"),
+                (("compare", "a.json"), "NEW.json", "cairn compare old.json new.json"),
+                (("solve",), "FILE or GENERATOR", "cairn solve slider"),
+                (("record",), "SCENE, --frames and --out",
+                 "cairn record tower --frames 40,90 --out folder"),
+                (("record", "tower", "-o", "x"), "--frames",
+                 "cairn record tower --frames 40,90 --out folder")):
+            self.assertEqual(self.refused(USAGE, *words),
+                             f"cairn: cairn {words[0]} needs {missing}, as in '{example}'; 'cairn "
+                             f"help {words[0]}' says more\n")
+        self.assertIn("as in 'cairn run tower'", self.refused(USAGE, "run"))
+        self.assertIn("as in 'cairn worlds --seeds 0:100'; 'cairn help worlds' says more",
+                      self.refused(USAGE, "worlds"))
+
+    def test_an_option_without_its_value_is_explained(self):
+        message = self.refused(USAGE, "run", "tower", "--size")
+        self.assertIn("--size needs a value, such as '--size 10' (Size of the scene", message)
+        self.assertIn("; 'cairn help run' says more", message)
+        self.assertIn("such as '--solver cairn'",
+                      self.refused(USAGE, "run", "tower", "--solver"))
+        self.assertIn("'cairn help run small' says more",
+                      self.refused(USAGE, "run", "small", "--frames"))
+        self.assertIn("--quiet stands alone", self.refused(USAGE, "run", "tower", "--quiet=maybe"))
+        self.assertIn("--float64 stands alone", self.refused(USAGE, "--float64=yes", "run", "tower"))
+
+    def test_an_unknown_option_is_named_though_something_is_missing(self):
+        self.assertIn("did you mean '--json'", self.refused(USAGE, "compare", "--jsn"))
 
     def test_a_budget_that_is_no_time_is_explained(self):
         for text, why in (("2", "no unit"), ("2mz", "'mz'"), ("-2ms", "not more than 0"),

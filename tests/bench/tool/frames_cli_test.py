@@ -14,6 +14,36 @@ def frames(*arguments):
     return subprocess.run([TOOL, *arguments], capture_output=True, text=True, timeout=300)
 
 
+class UsageTest(unittest.TestCase):
+    def test_alone_it_shows_what_there_is(self):
+        alone, asked = frames(), frames("--help")
+        self.assertEqual((alone.returncode, alone.stderr), (0, ""))
+        self.assertIn("deadlines", alone.stdout)
+        self.assertEqual(alone.stdout, asked.stdout)
+        self.assertEqual(frames("help", "parts").stdout, frames("parts", "--help").stdout)
+
+    def test_what_cannot_be_is_exit_code_2_and_a_sentence(self):
+        for words, why in (
+                (["--bogus"], "unknown option '--bogus': 'cairn_frames' shows what there is"),
+                (["pasts"], "unknown command 'pasts': did you mean 'parts'? 'cairn_frames --help' shows all"),
+                (["parts", "--quiet"], "unknown option '--quiet': 'cairn_frames parts --help' shows all"),
+                (["parts", "--frames"], "--frames needs a value, such as '--frames 10' (How many); "
+                                        "'cairn_frames help parts' says more"),
+                (["parts", "--frames", "0"], "--frames '0': write a number from 1 to 100000 (How many); "
+                                             "'cairn_frames help parts' says more"),
+                (["deadlines", "--seconds", "0"], "--seconds '0': write a number greater than 0 (Of a random "
+                                                  "world); 'cairn_frames help deadlines' says more"),
+                (["deadlines", "--budget", "-1"], "--budget '-1': write a number of 0 or more ([ms]; may be "
+                                                  "repeated); 'cairn_frames help deadlines' says more"),
+                (["deadlines", "--clock", "sun"], "--clock 'sun': write cpu or wall; 'cairn_frames help "
+                                                  "deadlines' says more"),
+                (["parts", "--scene", "tower:1000000"], None)):
+            result = frames(*words)
+            self.assertEqual((result.returncode, result.stdout), (2, ""), words)
+            if why:
+                self.assertEqual(result.stderr, f"cairn_frames: {why}\n")
+
+
 class PartsTest(unittest.TestCase):
     def table(self, *arguments):
         """Cells by the name of their line, and the names of the columns."""
