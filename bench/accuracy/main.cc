@@ -11,6 +11,7 @@
 #include "support/arguments.h"
 #include "support/command_line.h"
 #include "support/failure.h"
+#include "support/machine/setup.h"
 #include "support/output_file.h"
 
 namespace cairn::accuracy {
@@ -24,6 +25,7 @@ int Main(int count, char** arguments) {
                                    AddGridCommand(&app), AddTensionCommand(&app)};
   const cli::Arguments typed = {arguments + 1, arguments + count};
   if (!cli::Read(cli::SpellOut(app, typed), &app)) return cli::kFine;
+  cli::WarnOfTarget(app.get_name());
   for (const cli::Command& command : commands) {
     if (command.app->parsed()) return command.action(cli::WithoutPaths(app.get_name(), typed));
   }

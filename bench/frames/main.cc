@@ -14,6 +14,7 @@
 #include "support/arguments.h"
 #include "support/command_line.h"
 #include "support/failure.h"
+#include "support/machine/setup.h"
 #include "support/statistics.h"
 
 namespace cairn::frames {
@@ -192,6 +193,7 @@ int Main(int count, char** arguments) {
   const cli::Arguments typed = {arguments + 1, arguments + count};
   if (!cli::Read(cli::SpellOut(app, typed), &app)) return cli::kFine;
   const std::string command = cli::WithoutPaths("cairn_frames", typed);
+  cli::WarnOfTarget("cairn_frames");
   if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
   if (budget_app->parsed()) {
     budget.scenes = ParseScenes(budget_scenes);

@@ -12,6 +12,7 @@
 #include "support/failure.h"
 #include "support/machine/build_info.h"
 #include "support/machine/machine.h"
+#include "support/machine/setup.h"
 #include "support/output_file.h"
 #include "tools/precision.h"
 #include "verify/world_answers.h"
@@ -37,11 +38,8 @@ std::string ChosenTarget() {
     case Reason::kAsked:
       return fmt::format("{}, asked for by CAIRN_SIMD", name);
     case Reason::kUnknown:
-      return fmt::format("{}; CAIRN_SIMD='{}' is no target, this CPU has: {}", name, choice.asked,
-                         SupportedTargets());
     case Reason::kUnsupported:
-      return fmt::format("{}; CAIRN_SIMD='{}' does not run on this CPU, which has: {}", name,
-                         choice.asked, SupportedTargets());
+      return fmt::format("{}; {}", name, WhyNotTarget());
     case Reason::kBest:
       break;
   }
@@ -124,6 +122,7 @@ bool VerifySibling() {
 }  // namespace
 
 int DoctorVerify() {
+  WarnOfTarget();
   const bool core = Verify("core", verify::GoldenCoreAnswers(), verify::CoreAnswers());
   const bool worlds = VerifyWorlds(), sibling = VerifySibling();
   if (core && worlds && sibling) {

@@ -10,6 +10,7 @@
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
+#include "support/machine/setup.h"
 
 namespace cairn::play {
 namespace {
@@ -88,7 +89,9 @@ int Main(int count, char** arguments) {
   add("--commands", &options.commands, "Does what the file says, a command a line", "FILE");
   add("--window", &words.window, "Size of the window; default 1440x810", "WxH");
   if (!cli::Read({arguments + 1, arguments + count}, &app)) return cli::kFine;
-  App(Check(words, options)).Run();
+  const AppOptions checked = Check(words, options);
+  cli::WarnOfTarget("cairn play");
+  App(checked).Run();
   return cli::kFine;
 }
 

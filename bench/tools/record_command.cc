@@ -12,6 +12,7 @@
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
+#include "support/machine/setup.h"
 #include "support/output_file.h"
 #include "tools/words.h"
 
@@ -65,6 +66,7 @@ int DoRecord(const RecordWords& words) {
   const RecordOptions options = Check(words);
   CheckFolder(options.folder);
   if (!words.force) RefuseToOverwrite(options);
+  WarnOfTarget();
   for (const RecordedFrame& frame : RecordScenes(options)) {
     fmt::print("{}  {} bodies, {} rows of joints and others, {} contact points, {:.1f} kB\n",
                frame.path, frame.bodies, frame.joint_rows, frame.points,

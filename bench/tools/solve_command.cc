@@ -19,6 +19,7 @@
 #include "support/command_line.h"
 #include "support/duration.h"
 #include "support/failure.h"
+#include "support/machine/setup.h"
 #include "support/names.h"
 #include "support/output_file.h"
 
@@ -214,6 +215,7 @@ int DoSolve(const SolveWords& words, const std::string& command) {
     CheckFolder(words.exported);
     WriteProblems(words.exported, options.problems);
   }
+  WarnOfTarget();
   const SolveResult result = Solve(options, command);
   fmt::print("{}", ToText(result));
   if (!words.output.quiet) fmt::print("{}", ReadingHelp(result));

@@ -14,6 +14,7 @@
 #include "campaign/campaign_output.h"
 #include "support/command_line.h"
 #include "support/failure.h"
+#include "support/machine/setup.h"
 #include "support/names.h"
 #include "support/output_file.h"
 
@@ -144,6 +145,7 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   const int doubts = ParseInt("--doubts", words.doubts, 0, 1'000'000, "runs that may fail");
   if (!words.json.empty()) CheckWritable(words.json);
   if (!words.shrink.empty()) CheckFolder(words.shrink);
+  WarnOfTarget();
   std::vector<bench::WorldResult> results = RunWithProgress(options, ParseProgress(words.output));
   if (words.bits) CheckBits(options, &results);
   for (const bench::WorldResult& result : results) {

@@ -6,6 +6,7 @@
 #include <sched.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -40,17 +41,21 @@ void PinTo(int core) {
                                     fmt::join(UsableCores(), ", ")));
 }
 
+std::vector<std::string_view> NamesOf(const std::vector<simd::Target>& targets) {
+  std::vector<std::string_view> names;
+  for (const simd::Target target : targets) names.push_back(simd::TargetName(target));
+  return names;
+}
+
 void ForceTarget(const std::string& name) {
   using Reason = simd::TargetChoice::Reason;
   const std::vector<simd::Target> supported = simd::SupportedTargets();
   const simd::TargetChoice choice = simd::ChooseTarget(name, supported);
   if (!choice.honoured()) {
-    std::vector<std::string_view> names;
-    for (const simd::Target target : supported) names.push_back(simd::TargetName(target));
     throw Failure(kUsage, fmt::format("--simd '{}' {}; this machine has {}", name,
                                       choice.reason == Reason::kUnknown ? "is no target"
                                                                         : "does not run here",
-                                      fmt::join(names, ", ")));
+                                      fmt::join(NamesOf(supported), ", ")));
   }
   // What solvers that are made from now on read.
   setenv("CAIRN_SIMD", name.c_str(), 1);
@@ -73,8 +78,24 @@ Setup ParseSetup(const std::string& threads, const std::string& simd, const std:
 }
 
 void Apply(const Setup& setup) {
-  if (!setup.simd.empty()) ForceTarget(setup.simd);
+  setup.simd.empty() ? WarnOfTarget() : ForceTarget(setup.simd);
   if (setup.pinned) PinTo(*setup.pinned);
+}
+
+std::string WhyNotTarget() {
+  const simd::TargetChoice choice = simd::ChooseTarget();
+  if (choice.honoured()) return "";
+  const bool unknown = choice.reason == simd::TargetChoice::Reason::kUnknown;
+  return fmt::format("CAIRN_SIMD='{}' {} has: {}", choice.asked,
+                     unknown ? "is no target, this CPU" : "does not run on this CPU, which",
+                     fmt::join(NamesOf(simd::SupportedTargets()), " "));
+}
+
+void WarnOfTarget(std::string_view program) {
+  const std::string why = WhyNotTarget();
+  if (why.empty()) return;
+  fmt::print(stderr, "{}: {}; Cairn takes {}\n", program, why,
+             simd::TargetName(simd::ChosenTarget()));
 }
 
 std::string Describe(const Setup& setup) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace cairn::cli {
 
@@ -17,9 +18,18 @@ struct Setup {
 /// A setup as typed; empty texts are not asked for. @throws Failure (kUsage)
 Setup ParseSetup(const std::string& threads, const std::string& simd, const std::string& core);
 
-/// Makes it so for this process. @throws Failure (kUsage) for a target or core that this machine
+/// Makes it so for this process, and warns as WarnOfTarget() does where no target is asked for.
+/// @throws Failure (kUsage) for a target or core that this machine
 /// does not have, with those that it has.
 void Apply(const Setup& setup);
+
+/// "CAIRN_SIMD='avx9' is no target, this CPU has: scalar sse4"; empty where Cairn has the target
+/// that CAIRN_SIMD asks for, or none is asked for.
+std::string WhyNotTarget();
+
+/// Says so on stderr, and which target is taken instead: Cairn itself prints nothing.
+/// @param program  what the line begins with: "cairn"
+void WarnOfTarget(std::string_view program = "cairn");
 
 /// "1 thread, avx2 asked for, pinned to core 0"
 std::string Describe(const Setup& setup);

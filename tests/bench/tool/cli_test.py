@@ -412,6 +412,38 @@ class RunTest(CairnTest):
         self.assertAlmostEqual(first / second, 1, delta=0.5)
 
 
+class TargetTest(CairnTest):
+    """CAIRN_SIMD that cannot be had: Cairn takes the best target, and the tool says so once."""
+    COMMANDS = ((*SMALL, "--quiet"), ("run", "small", "door", "--frames", "2", "--samples", "0"),
+                ("solve", "slider", "--size", "20", "--solver", "pgs-sm", "--quiet"),
+                ("record", "tower", "--frames", "1", "--force", "-o"),
+                ("worlds", "--seed", "0", "--seconds", "0.05", "--quiet"))
+
+    def warning(self, target, *arguments):
+        result = cairn(*arguments, environment={"CAIRN_SIMD": target})
+        self.assertEqual(result.returncode, FINE, result.stderr)
+        return result.stderr
+
+    def test_what_is_no_target_is_said_with_what_there_is(self):
+        for command in self.COMMANDS:
+            words = (*command, self.path("r")) if command[-1] == "-o" else command
+            said = self.warning("avx9", *words)
+            self.assertRegex(said, r"^cairn: CAIRN_SIMD='avx9' is no target, this CPU has: scalar[ \w]*; "
+                                   r"Cairn takes \w+\n$", command)
+
+    def test_a_target_of_other_cpus_is_said_likewise(self):
+        targets = re.search("SIMD targets *(.*)", self.fine("doctor")).group(1).split()
+        other = "avx2" if "neon" in targets else "neon"
+        self.assertEqual(self.warning(other, *SMALL),
+                         f"cairn: CAIRN_SIMD='{other}' does not run on this CPU, which has: "
+                         f"{' '.join(targets)}; Cairn takes {targets[-1]}\n")
+
+    def test_nothing_is_said_of_what_can_be_had_or_does_not_count(self):
+        self.assertEqual(self.warning("scalar", *SMALL), "")
+        self.assertEqual(self.warning("avx9", *SMALL, "--simd", "scalar"), "")
+        self.assertEqual(self.warning("avx9", "list", "scenes"), "")
+
+
 class TraceTest(CairnTest):
     def trace(self, *arguments):
         self.fine(*SMALL, "--solver", "bullet-si,cairn", "--trace", self.path("t.json"), *arguments)
