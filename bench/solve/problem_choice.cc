@@ -60,6 +60,17 @@ std::vector<fs::path> RecordingsIn(const fs::path& folder) {
   return recordings;
 }
 
+/// The folder of a problem that a file is a part of.
+fs::path FolderOf(const fs::path& file) {
+  const fs::path folder = file.parent_path().empty() ? "." : file.parent_path();
+  const bool is_part = file.extension() == ".mtx" || file.filename() == "meta.json";
+  if (is_part && problems::IsProblemFolder(folder)) return folder;
+  throw Failure(kBadInput,
+                fmt::format("'{}' is no problem: solve takes recordings (*{}), folders "
+                            "with meta.json, and names ('cairn list problems' shows all)",
+                            file.string(), kRecordingEnding));
+}
+
 std::vector<std::string> ParameterNames(const Generator& generator) {
   std::vector<std::string> names;
   for (const Parameter& parameter : generator.parameters) names.push_back(parameter.name);
@@ -84,8 +95,7 @@ class Chooser {
     std::vector<std::string> names;
     for (const Generator& generator : KnownGenerators()) names.push_back(generator.name);
     const bool is_name = std::find(names.begin(), names.end(), word) != names.end();
-    const bool is_path =
-        word.find('/') != std::string::npos || word.starts_with('.') || word.ends_with(".cairn");
+    const bool is_path = word.find_first_of("/.") != std::string::npos;
     std::error_code ignored;
     if (!is_name && fs::exists(word, ignored)) return AddPath(word);
     if (is_path) {
@@ -126,7 +136,7 @@ class Chooser {
       if (IsRecording(path.string()) || path.extension() == kRecordingEnding) {
         return AddRecording(path);
       }
-      return AddFolder(path.parent_path().empty() ? "." : path.parent_path());
+      return AddFolder(FolderOf(path));
     }
     if (problems::IsProblemFolder(path)) return AddFolder(path);
     const std::vector<fs::path> recordings = RecordingsIn(path);

@@ -102,6 +102,17 @@ std::vector<double> ParseErrors(const std::string& text) {
   return errors;
 }
 
+/// Solvers of all makes are compared here, and work is counted by Cairn's alone.
+std::chrono::nanoseconds ParseTimeBudget(const std::string& text) {
+  if (text.ends_with("units")) {
+    throw Failure(kUsage, fmt::format("--budget '{}': cairn solve takes a time, such as 2ms, as "
+                                      "not all its solvers count work; for the same results each "
+                                      "time give --max-sweeps, such as --max-sweeps 100",
+                                      text));
+  }
+  return ParseDuration("--budget", text);
+}
+
 LcpOptions CheckSolver(const SolveWords& words) {
   constexpr int kMost = std::numeric_limits<int>::max();
   LcpOptions options;
@@ -112,7 +123,7 @@ LcpOptions CheckSolver(const SolveWords& words) {
   if (!words.max_sweeps.empty()) {
     options.max_sweeps = ParseInt("--max-sweeps", words.max_sweeps, 0, kMost, "sweeps at most");
   }
-  if (!words.budget.empty()) options.budget = ParseDuration("--budget", words.budget);
+  if (!words.budget.empty()) options.budget = ParseTimeBudget(words.budget);
   options.order = ParseName("order", words.order, kOrders);
   options.threads = ParseInt("--threads", words.threads, 1, 1024, "threads of a solver");
   if (!words.k_gs.empty()) {
@@ -194,6 +205,11 @@ SolveOptions Check(const SolveWords& words) {
   if (options.errors.empty() && !words.plot.empty()) {
     throw Failure(kUsage, "--plot needs errors: leave --errors none away");
   }
+  if (!words.plot.empty() && !words.plot.ends_with(".svg")) {
+    throw Failure(kUsage, fmt::format("--plot '{}': the picture is SVG; write a name that ends in "
+                                      ".svg, such as error.svg",
+                                      words.plot));
+  }
   if (kinds.frames) {
     options.row_solver = CheckRowSolver(words);
     CheckFrames(options, words);
@@ -238,7 +254,9 @@ void AddSolverOptions(CLI::App* solve, SolveWords* words) {
       "R");
   add("--max-sweeps", &words->max_sweeps, "Sweeps at most; default 50000, pgs-sm: none", "N");
   add("--budget", &words->budget,
-      "Time for a problem, such as 2ms, 5s; default: none, of recorded frames 20ms", "TIME");
+      "Time for a problem, such as 2ms, 5s; default: none, of recorded frames 20ms; --max-sweeps "
+      "gives the same results each time",
+      "TIME");
   add("--start", &words->start,
       "zero, warm (what the problem brings; default) or nested (coarser grids first)", "HOW");
   add("--order", &words->order,

@@ -190,6 +190,31 @@ class RefusalTest(SolveTestCase):
                           self.refused(USAGE, "solve", folder, "--errors", "none", option,
                                        self.path("f")))
 
+    def test_a_picture_has_the_name_of_what_it_is(self):
+        message = self.refused(USAGE, "solve", self.stack(), "--plot", self.path("p.png"))
+        self.assertIn("p.png': the picture is SVG; write a name that ends in .svg", message)
+        self.assertFalse(os.path.exists(self.path("p.png")))
+
+    def test_a_budget_of_work_is_answered_with_what_repeats_here(self):
+        message = self.refused(USAGE, "solve", self.stack(), "--budget", "100000units")
+        self.assertIn("takes a time, such as 2ms", message)
+        self.assertIn("--max-sweeps", message)
+
+    def test_a_file_that_is_no_problem_is_named_as_it_was_typed(self):
+        path = self.path("a.json")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write("{}")
+        message = self.refused(BAD_INPUT, "solve", path)
+        self.assertTrue(message.startswith(f"cairn: '{path}' is no problem: "), message)
+        for kind in ("recordings (*.cairn)", "folders with meta.json", "cairn list problems"):
+            self.assertIn(kind, message)
+        # nor is a stranger among the files of a problem
+        stranger = os.path.join(self.stack(), "notes.txt")
+        with open(stranger, "w", encoding="utf-8") as file:
+            file.write("x")
+        self.assertIn("notes.txt' is no problem", self.refused(BAD_INPUT, "solve", stranger))
+        self.assertIn("b.json': there is no such file", self.refused(BAD_INPUT, "solve", "b.json"))
+
     def test_a_broken_folder_is_named_with_file_and_line(self):
         folder = self.stack()
         write_vector(os.path.join(folder, "q.mtx"), [1.0])
@@ -220,7 +245,7 @@ class RefusalTest(SolveTestCase):
     def test_files_that_cannot_be_written_are_refused_before_solving(self):
         folder = self.stack()
         for option in ("--json", "--csv", "--markdown", "--history", "--plot"):
-            path = self.path("missing/file")
+            path = self.path("missing/file.svg")
             self.assertIn(path, self.refused(BAD_INPUT, "solve", folder, option, path))
         self.assertIn("cannot make folder",
                       self.refused(BAD_INPUT, "solve", folder, "--solution",
