@@ -95,8 +95,8 @@ std::string ReferenceText(const ProblemResult& problem) {
                        residual, BetterThanReference(problem));
   }
   return fmt::format(
-      "errors: NO REFERENCE CONVERGED, they are against where it ended ({});\nerrors that are not "
-      "much larger than that say little{}",
+      "errors: no reference converged, so they are against where it ended ({});\nerrors that are "
+      "not much larger than that say little{}",
       residual, BetterThanReference(problem));
 }
 

@@ -59,7 +59,7 @@ std::string Ended(const LcpSolverResult& solver) {
 std::string BestRemark(double residual) {
   const std::string text = fmt::format(" (residual {})", FormatNumber(residual));
   if (residual <= kUsableReference) return text;
-  return text + ":\nNO GOOD REFERENCE was found, errors say little";
+  return text + ":\nno good reference was found, and errors say little";
 }
 
 std::string TruthText(const ProblemResult& problem) {
@@ -239,6 +239,50 @@ TextTable PhaseTable(const SolveResult& result) {
   return table;
 }
 
+namespace {
+
+/// How far a solver got with all problems.
+struct Score {
+  size_t matrices = 0, solved = 0;
+  size_t frames = 0, converged = 0;
+  std::map<std::string, size_t> stops;  ///< Of frames that did not converge, and are no failures.
+  /// Of failures, and the problems that failed so.
+  std::map<std::string, std::vector<std::string>> reasons;
+  bool single = true;
+
+  std::string ToText() const {
+    std::string text;
+    if (matrices > 0) text = fmt::format("{} of {} solved", solved, matrices);
+    if (frames > 0) {
+      text += fmt::format("{}{} of {} converged", text.empty() ? "" : "; of frames ", converged,
+                          frames);
+      for (const auto& [stop, count] : stops) text += fmt::format(", {} {}", count, stop);
+    }
+    for (const auto& [reason, names] : reasons) {
+      text += single ? fmt::format("; {}", reason)
+                     : fmt::format("; {} {} ({})", names.size(), reason, Some(names));
+    }
+    return text;
+  }
+};
+
+void AddTo(Score* score, const SolveResult& result, const ProblemResult& problem,
+           const LcpSolverResult& solver) {
+  score->single = IsSingle(result);
+  ++(problem.rows ? score->frames : score->matrices);
+  if (solver.failure) {
+    score->reasons[ReasonOf(result, solver)].push_back(problem.name);
+  } else if (!problem.rows) {
+    ++score->solved;
+  } else if (solver.stop == "converged" || result.row_options.tolerance > 0) {
+    ++score->converged;  // to the tolerance that was asked for, if one was: else it had failed
+  } else {
+    ++score->stops[solver.stop];
+  }
+}
+
+}  // namespace
+
 std::string Heading(const SolveResult& result) {
   if (IsSingle(result)) {
     const ProblemResult& problem = result.problems.front();
@@ -255,22 +299,13 @@ std::string Heading(const SolveResult& result) {
 std::string SolvedSummary(const SolveResult& result) {
   std::string text;
   for (const std::string& label : result.solvers) {
-    std::map<std::string, std::vector<std::string>> reasons;
-    size_t solved = 0, all = 0;
+    Score score;
     for (const ProblemResult& problem : result.problems) {
       for (const LcpSolverResult& solver : problem.solvers) {
-        if (solver.label != label) continue;
-        ++all;
-        if (!solver.failure) ++solved;
-        if (solver.failure) reasons[ReasonOf(result, solver)].push_back(problem.name);
+        if (solver.label == label) AddTo(&score, result, problem, solver);
       }
     }
-    text += fmt::format("{}: {} of {} solved", label, solved, all);
-    for (const auto& [reason, names] : reasons) {
-      text += IsSingle(result) ? fmt::format("; {}", reason)
-                               : fmt::format("; {} {} ({})", names.size(), reason, Some(names));
-    }
-    text += "\n";
+    text += fmt::format("{}: {}\n", label, score.ToText());
   }
   if (!result.skipped.empty()) {
     std::vector<std::string> names;

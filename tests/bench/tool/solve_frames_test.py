@@ -91,7 +91,7 @@ class FramesTest(cli_test.CairnTest):
         converged = problem["reference_residual"] <= 1e-8
         self.assertEqual(converged, problem["error_against"] == "converged reference")
         close = problem["reference_residual"] <= 1e-5
-        self.assertEqual(not close, "NO REFERENCE CONVERGED" in text)
+        self.assertEqual(not close, "errors: no reference converged, so they are against" in text)
         self.assertEqual(close and not converged, "a reference that almost converged" in text)
 
     def test_counted_sweeps_give_the_same_numbers_on_every_instruction_set(self):
@@ -163,7 +163,7 @@ class FramesTest(cli_test.CairnTest):
         result = cairn("solve", path, "--solver", "ipm,pgs", "--max-sweeps", "5", "--errors", "none")
         self.assertEqual(result.returncode, CHECK_FAILED, result.stderr)
         self.assertIn("refused: friction, whose bounds follow other impulses", result.stdout)
-        self.assertIn("pgs: 1 of 1 solved", result.stdout)
+        self.assertIn("pgs: 0 of 1 converged, 1 sweep limit", result.stdout)
 
     def test_a_tolerance_that_is_missed_fails(self):
         path = self.record("tower")
@@ -172,6 +172,21 @@ class FramesTest(cli_test.CairnTest):
         self.assertEqual(missed.returncode, CHECK_FAILED, missed.stderr)
         self.assertIn("effort spent at residual", missed.stdout)
         self.fine("solve", path, "--solver", "pgs", "--tolerance", "0.5", "--errors", "none")
+
+    def test_a_frame_is_converged_or_it_is_said_what_ended_it(self):
+        self.record("tower")
+        path = self.record("wall")
+        text = self.fine("solve", self.path("frames"), "--solver", "pgs,bullet-si", "--budget", "50us",
+                         "--errors", "none")
+        self.assertIn("\npgs: 0 of 2 converged, 2 budget spent\n"
+                      "bullet-si: 0 of 2 converged, 2 effort spent\n", text)
+        # a tolerance that was asked for and reached is what converged means
+        self.assertIn("\npgs: 1 of 1 converged\n",
+                      self.fine("solve", path, "--solver", "pgs", "--tolerance", "0.5", "--errors",
+                                "none"))
+        self.assertIn("\npgs: 1 of 1 solved; of frames 0 of 1 converged, 1 sweep limit\n",
+                      self.fine("solve", path, "slider", "--size", "5", "--max-sweeps", "400",
+                                "--errors", "none", "--solver", "pgs"))
 
     def test_solvers_that_do_not_fit_the_problems_are_refused(self):
         path = self.record("chain")
