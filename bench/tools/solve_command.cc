@@ -33,7 +33,7 @@ struct SolveWords {
   std::string tolerance, max_sweeps, budget, threads = "1", repeat = "1";
   std::string k_gs, k_sm, tol, omega;
   std::string json, csv, markdown, history, plot, solution, exported;
-  bool phases = false;
+  bool phases = false, force = false;
   OutputWords output;
 };
 
@@ -229,7 +229,8 @@ int DoSolve(const SolveWords& words, const std::string& command) {
   if (!words.solution.empty()) CheckFolder(words.solution);
   if (!words.exported.empty()) {
     CheckFolder(words.exported);
-    WriteProblems(words.exported, options.problems);
+    WriteProblems(words.exported, options.problems,
+                  words.force ? IfThere::kOverwrite : IfThere::kRefuse);
   }
   WarnOfTarget();
   const SolveResult result = Solve(options, command);
@@ -306,6 +307,7 @@ Command AddSolveCommand(CLI::App* app) {
   add("--solution", &words->solution, "Write x and w of each solver, DIR/PROBLEM/SOLVER/x.mtx",
       "DIR");
   add("--export", &words->exported, "Write the problems as folders, DIR/PROBLEM", "DIR");
+  solve->add_flag("--force", words->force, "Write over problems that --export finds there already");
   AddOutputWords(solve, &words->output);
   return {solve, [words](const std::string& typed) { return DoSolve(*words, typed); }};
 }

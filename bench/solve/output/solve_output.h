@@ -48,8 +48,13 @@ std::string ToSvg(const SolveResult& result);
 /// problem. @throws Failure (kBadInput)
 void WriteSolutions(const std::string& folder, const SolveResult& result);
 
+/// What to do with a problem that is there already.
+enum class IfThere { kRefuse, kOverwrite };
+
 /// Writes <folder>/<problem> as ReadProblemFolder() reads it; of a march, the first problem.
-/// @throws Failure (kBadInput)
-void WriteProblems(const std::string& folder, std::span<const ProblemChoice> choices);
+/// @throws Failure (kBadInput) if it cannot be written, or is there already, before any is written;
+/// (kUsage) if two problems have the same name
+void WriteProblems(const std::string& folder, std::span<const ProblemChoice> choices,
+                   IfThere if_there);
 
 }  // namespace cairn::cli

@@ -319,6 +319,32 @@ class SolveTest(SolveTestCase):
             self.assertLessEqual(relative_residual(matrix, q, x, lo, hi), 1.0001 * TOLERANCE)
             self.assertTrue(all(lo[i] <= x[i] <= hi[i] for i in range(20)))
 
+    def test_export_writes_over_a_problem_only_when_told_to(self):
+        command = ("slider", "--solver", "pgs-sm", "--errors", "none", "--export", self.path("p"))
+        self.fine("solve", *command, "--size", "20")
+        place, = os.listdir(self.path("p"))
+        matrix = self.path(f"p/{place}/matrix.mtx")
+        with open(matrix, "w", encoding="ascii") as file:
+            file.write("mine")
+        # a bound of another problem is not left to this one
+        write_vector(self.path(f"p/{place}/w.mtx"), [0.0])
+        for more in ([], ["torsion"]):
+            message = self.refused(BAD_INPUT, "solve", *more, *command, "--size", "20")
+            self.assertIn(f"p/{place}' holds a problem already: --force writes over it", message)
+        self.assertEqual(os.listdir(self.path("p")), [place])
+        with open(matrix, encoding="ascii") as file:
+            self.assertEqual(file.read(), "mine")
+        self.fine("solve", *command, "--size", "20", "--force")
+        self.assertNotIn("w.mtx", os.listdir(os.path.dirname(matrix)))
+        self.fine("solve", os.path.dirname(matrix), "--solver", "pgs-sm")
+
+    def test_problems_of_one_name_are_not_exported_into_one_folder(self):
+        first = self.stack("a")
+        os.mkdir(self.path("other"))
+        second = write_problem(self.path("other"), "a", STACK, [-2.0, 0.0])
+        message = self.refused(USAGE, "solve", first, second, "--export", self.path("p"))
+        self.assertIn("two problems have the name 'a'", message)
+
     def test_w_is_compared_where_x_is_not_unique(self):
         folder = write_problem(self.folder, "flat", [[1.0, 1.0], [1.0, 1.0]], [-1.0, -1.0],
                                solution=[1.0, 0.0], w=[0.0, 0.0],
