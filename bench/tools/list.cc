@@ -2,15 +2,21 @@
 #include "tools/commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "contestants/solver_registry.h"
 #include "lcp/lcp_solvers.h"
 #include "rows/row_solvers.h"
 #include "run/scene_choice.h"
 #include "solve/problem_choice.h"
+#include "tools/solver_names.h"
+#include "worlds/variants.h"
 
 namespace cairn::cli {
 namespace {
@@ -66,20 +72,25 @@ Json ProblemList(ListForm form) {
 
 Json SolverList(ListForm form) {
   Json json = Json::array();
-  const auto add = [&](const auto& solvers, std::string_view command, std::string_view takes) {
+  const auto add = [&](const auto& solvers, SolverUser user, std::string_view command,
+                       std::string_view takes) {
     for (const auto& solver : solvers) {
+      const std::vector<std::string> aliases = Aliases(user, solver.name);
       if (form == ListForm::kText) {
-        fmt::print("{:<21} {:<6} {:<9} {}\n", solver.name, command, takes, solver.description);
+        fmt::print("{:<21} {:<6} {:<13} {}{}\n", solver.name, command, takes, solver.description,
+                   aliases.empty() ? "" : fmt::format("; also {}", fmt::join(aliases, ", ")));
       }
       json.push_back({{"name", solver.name},
+                      {"aliases", aliases},
                       {"command", command},
                       {"takes", takes},
                       {"description", solver.description}});
     }
   };
-  add(Solvers(), "run", "worlds");
-  add(LcpSolvers(), "solve", "matrices");
-  add(RowSolvers(), "solve", "frames");
+  add(Solvers(), SolverUser::kRun, "run", "worlds");
+  add(bench::CairnVariants(), SolverUser::kWorlds, "worlds", "random worlds");
+  add(LcpSolvers(), SolverUser::kSolve, "solve", "matrices");
+  add(RowSolvers(), SolverUser::kSolve, "solve", "frames");
   return json;
 }
 

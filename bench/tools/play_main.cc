@@ -11,6 +11,7 @@
 #include "support/duration.h"
 #include "support/failure.h"
 #include "support/machine/setup.h"
+#include "tools/solver_names.h"
 
 namespace cairn::play {
 namespace {
@@ -29,7 +30,8 @@ N step, R restart, B shoot, S save a frame, V view, P panels. Without a screen: 
 docs/play.md has the commands of --commands.)";
 
 void SetSolvers(const Words& words, Controls* controls) {
-  const std::vector<cli::SolverChoice> choices = cli::ParseSolvers(words.solver);
+  const std::vector<cli::SolverChoice> choices =
+      cli::ParseSolvers(cli::OwnSolverNames(cli::SolverUser::kRun, words.solver));
   if (choices.size() > 2) throw Failure(kUsage, "--solver: two worlds at most");
   controls->worlds = static_cast<int>(choices.size());
   for (size_t i = 0; i < choices.size(); ++i) {

@@ -14,6 +14,7 @@
 #include "support/failure.h"
 #include "support/machine/setup.h"
 #include "support/output_file.h"
+#include "tools/solver_names.h"
 #include "tools/words.h"
 
 namespace cairn::cli {
@@ -45,7 +46,7 @@ RecordOptions Check(const RecordWords& words) {
   RecordOptions options;
   RunOptions& run = options.run;
   Parse(words.scenes, words.effort, &run);
-  run.solvers = ParseSolvers(words.solver);
+  run.solvers = ParseSolvers(OwnSolverNames(SolverUser::kRun, words.solver));
   if (run.solvers.size() != 1) throw Failure(kUsage, "--solver: one solver makes the frames");
   if (AnyFit(run)) {
     throw Failure(kUsage, "iterations that fit a budget make other frames each time");

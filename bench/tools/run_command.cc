@@ -18,6 +18,7 @@
 #include "support/duration.h"
 #include "support/failure.h"
 #include "support/output_file.h"
+#include "tools/solver_names.h"
 #include "tools/words.h"
 
 namespace cairn::cli {
@@ -65,7 +66,7 @@ RunOptions Check(const RunWords& words) {
                   "cairn run needs SCENE, as in 'cairn run tower' ('cairn list scenes' shows all), "
                   "or a world that Bullet saved: --import FILE");
   }
-  options.solvers = ParseSolvers(words.solvers);
+  options.solvers = ParseSolvers(OwnSolverNames(SolverUser::kRun, words.solvers));
   options.frames = ParseInt("--frames", words.frames, 1, 1'000'000, "frames of 1/60 s to simulate");
   options.warmup = ParseInt("--warmup", words.warmup, 0, options.frames - 1,
                             "the first frames, which do not count");

@@ -22,6 +22,7 @@
 #include "support/machine/setup.h"
 #include "support/names.h"
 #include "support/output_file.h"
+#include "tools/solver_names.h"
 
 namespace cairn::cli {
 namespace {
@@ -187,7 +188,7 @@ SolveOptions Check(const SolveWords& words) {
     throw Failure(kBadInput, fmt::format("nothing to solve: all {} problems are of kind friction",
                                          options.skipped.size()));
   }
-  SolverChoices solvers = ChooseSolvers(words.solvers, kinds);
+  SolverChoices solvers = ChooseSolvers(OwnSolverNames(SolverUser::kSolve, words.solvers), kinds);
   options.solvers = std::move(solvers.of_matrices);
   options.row_solvers = std::move(solvers.of_frames);
   options.solver_names = std::move(solvers.names);

@@ -17,6 +17,7 @@
 #include "support/machine/setup.h"
 #include "support/names.h"
 #include "support/output_file.h"
+#include "tools/solver_names.h"
 
 namespace cairn::cli {
 namespace {
@@ -94,8 +95,7 @@ std::vector<bench::Variant> ParseVariants(const std::string& typed) {
   for (const bench::Variant& variant : bench::CairnVariants()) names.push_back(variant.name);
   std::vector<bench::Variant> variants;
   for (const std::string& word : Split(typed, ',')) {
-    const size_t index =
-        FindName("solver", word, names, "solvers are " + fmt::format("{}", fmt::join(names, ", ")));
+    const size_t index = FindName("solver", word, names, "'cairn list solvers' shows all");
     variants.push_back(bench::CairnVariants()[index]);
   }
   if (variants.empty()) throw Failure(kUsage, "--solver names no solver");
@@ -106,7 +106,7 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   bench::CampaignOptions options;
   options.seeds = ParseSeeds(words);
   KeepKinds(words.kinds, &options.seeds);
-  options.variants = ParseVariants(words.solvers);
+  options.variants = ParseVariants(OwnSolverNames(SolverUser::kWorlds, words.solvers));
   options.trial.seconds =
       ParseNumber("--seconds", words.seconds, 0.01, 3600, "simulated seconds of each world");
   options.trial.world.scale =
@@ -175,7 +175,8 @@ Command AddWorldsCommand(CLI::App* app) {
   add("--seeds", &words->seeds, "Worlds FROM to TO - 1", "FROM:TO");
   add("--seed", &words->seed, "One world", "N");
   add("--solver", &words->solvers,
-      "Of cairn, cairn-sweeps, cairn-work, cairn-always, cairn-parts; default: all but the last",
+      "Of cairn, cairn-sweeps, cairn-work, cairn-always, cairn-parts, see cairn list solvers; "
+      "default: all but the last",
       "A,B,...");
   add("--kind", &words->kinds, "Only worlds of these kinds; see --list", "K,...");
   add("--seconds", &words->seconds, "Simulated time of each world; default 5", "S");

@@ -107,6 +107,13 @@ class RefusalTest(CairnTest):
         self.assertIn("'bullet-dantzig'",
                       self.refused(USAGE, "run", "tower", "--solver", "bullet-danzig"))
 
+    def test_a_solver_of_another_command_is_named_with_what_is_near(self):
+        message = self.refused(USAGE, "run", "tower", "--solver", "pgs")
+        self.assertIn("'pgs' is a solver of cairn solve", message)
+        self.assertIn("cairn-pgs comes nearest", message)
+        self.assertIn("did you mean 'cairn-sweeps'",
+                      self.refused(USAGE, "run", "tower", "--solver", "cairn-sweps"))
+
     def test_an_unknown_command_is_answered_with_the_nearest(self):
         self.assertIn("did you mean 'doctor'", self.refused(USAGE, "docter"))
 
@@ -375,6 +382,13 @@ class RunTest(CairnTest):
         counts = {s["solver"]: s["summary"]["iterations_mean"] for s in scene["solvers"]}
         self.assertEqual(counts,
                          {"bullet-si": 7, "bullet-si@50": 50, "cairn": 7, "cairn-pgs@3": 3})
+
+    def test_names_of_solvers_in_worlds_and_solve_are_taken(self):
+        for typed in ("pgs-sm,cairn-sweeps@3", "cairn,pgs-nncg@3"):
+            scene = self.run_json(*SMALL, "--solver", typed)["scenes"][0]
+            self.assertEqual([s["solver"] for s in scene["solvers"]], ["cairn", "cairn-pgs@3"])
+        self.assertIn("names cairn-pgs twice",
+                      self.refused(USAGE, *SMALL, "--solver", "cairn-pgs,cairn-sweeps"))
 
     def test_substeps_share_the_iterations_and_have_no_error_of_a_state(self):
         scene = self.run_json(*SMALL, "--iterations", "20", "--seed", "1", "--solver",

@@ -114,6 +114,13 @@ class ListTest(SolveTestCase):
         names = [solver["name"] for solver in solvers if solver["command"] == "solve"]
         self.assertEqual(names[:5], ALL_SOLVERS)
         self.assertIn("cairn", [s["name"] for s in solvers if s["command"] == "run"])
+        worlds = {s["name"]: s["aliases"] for s in solvers if s["command"] == "worlds"}
+        self.assertEqual(worlds["cairn-sweeps"], ["cairn-pgs", "pgs-nncg"])
+        self.assertIn("cairn-always", worlds)
+        known = {s["name"] for s in solvers}
+        for solver in solvers:
+            self.assertLessEqual(set(solver["aliases"]), known)
+        self.assertRegex(self.fine("list", "solvers"), r"(?m)^cairn-pgs .*; also cairn-sweeps, pgs-nncg$")
 
     def test_help_explains_time_errors_and_exit_codes(self):
         text = self.fine("solve", "--help")
@@ -344,6 +351,15 @@ class SolveTest(SolveTestCase):
         second = write_problem(self.path("other"), "a", STACK, [-2.0, 0.0])
         message = self.refused(USAGE, "solve", first, second, "--export", self.path("p"))
         self.assertIn("two problems have the name 'a'", message)
+
+    def test_names_that_other_commands_have_for_a_solver_are_taken(self):
+        problem = self.solve_json(self.stack(), "--solver", "cairn")["problems"][0]
+        self.assertEqual([solver["solver"] for solver in problem["solvers"]], ["pgs-sm"])
+        self.assertIn("names pgs-sm twice",
+                      self.refused(USAGE, "solve", self.stack("b"), "--solver", "cairn,pgs-sm"))
+        message = self.refused(USAGE, "solve", self.stack("c"), "--solver", "cairn-work")
+        self.assertIn("'cairn-work' is a solver of cairn worlds", message)
+        self.assertIn("pgs-sm comes nearest", message)
 
     def test_w_is_compared_where_x_is_not_unique(self):
         folder = write_problem(self.folder, "flat", [[1.0, 1.0], [1.0, 1.0]], [-1.0, -1.0],

@@ -188,6 +188,12 @@ class FramesTest(cli_test.CairnTest):
                       self.fine("solve", path, "slider", "--size", "5", "--max-sweeps", "400",
                                 "--errors", "none", "--solver", "pgs"))
 
+    def test_names_of_solvers_in_run_and_worlds_are_taken(self):
+        path = self.record("chain")
+        for typed in ("cairn-pgs,cairn", "cairn-sweeps,pgs-sm"):
+            result = self.solve_json(path, "--solver", typed, "--max-sweeps", "5", "--errors", "none")
+            self.assertEqual(list(self.solvers_of(result)), ["pgs-nncg", "pgs-sm"])
+
     def test_solvers_that_do_not_fit_the_problems_are_refused(self):
         path = self.record("chain")
         self.assertIn("solves problems in matrix form only",

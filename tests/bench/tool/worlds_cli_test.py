@@ -104,6 +104,15 @@ class WorldsTest(CairnTest):
         self.assertRegex(self.worlds(*QUICK[1:], "--bits", "--solver", "cairn"),
                          r"(?m)^cairn +\d+ +\d+ +\d+ +\d+ +\d+ +\d+ +0 ")
 
+    def test_names_of_solvers_in_run_and_solve_are_taken(self):
+        for typed in ("cairn-pgs,pgs-sm", "pgs-nncg,cairn"):
+            text = self.worlds(*QUICK[1:], "--solver", typed)
+            self.assertRegex(text, r"(?m)^bullet-100 .*\ncairn-sweeps .*\ncairn ")
+        message = self.refused(USAGE, "worlds", "--seed", "1", "--solver", "bullet-si")
+        self.assertIn("'bullet-si' is a solver of cairn run and cairn solve", message)
+        self.assertIn("cairn-sweeps comes nearest",
+                      self.refused(USAGE, "worlds", "--seed", "1", "--solver", "pgs"))
+
     def test_what_cannot_be_is_refused(self):
         for words, expected in ((["worlds"], "--seeds"),
                                 (["worlds", "--seeds", "5"], "FROM:TO"),
