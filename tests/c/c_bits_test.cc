@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <span>
 #include <vector>
 
+#include "cairn/cairn_doubles.h"
 #include "tests/c/c_problems.h"
 
 namespace cairn {
@@ -68,6 +70,85 @@ TEST(CInterface, GivesTheBitsOfCpp) {
     scene.law.host = {};
     ExpectSameBits(scene, {}, cairnDefaultSettings());
   }
+}
+
+CairnBodyD Copy(const Body& from) {
+  CairnBodyD to = cairnDefaultBodyD();
+  to.invMass = from.inv_mass;
+  for (int k = 0; k < 9; ++k) to.invInertia[k] = from.inv_inertia(k / 3, k % 3);
+  for (int k = 0; k < 3; ++k) {
+    to.linearFactor[k] = from.linear_factor[k];
+    to.velocity.linear[k] = from.velocity.linear[k];
+    to.velocity.angular[k] = from.velocity.angular[k];
+    to.impulse[k] = from.impulse[k];
+    to.angularImpulse[k] = from.angular_impulse[k];
+  }
+  to.id = from.id;
+  return to;
+}
+
+void ExpectSame(std::span<const Velocity> expected, const std::vector<CairnVelocityD>& got) {
+  ASSERT_EQ(expected.size(), got.size());
+  for (size_t i = 0; i < got.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(expected[i].linear[k], got[i].linear[k]) << "body " << i;
+      EXPECT_EQ(expected[i].angular[k], got[i].angular[k]) << "body " << i;
+    }
+  }
+}
+
+// Numbers of bodies that no float holds go in and come out as they are.
+TEST(CInterface, GivesTheBitsOfCppInDoubles) {
+  for (const int substeps : {1, 2}) {
+    ManifoldScene scene = test::RollingManifolds(30, 60, 5);
+    test::AddJoints(10, 5, &scene);
+    scene.motions.clear();
+    scene.law.host = {};
+    ManifoldScene copy = scene;
+    std::vector<CairnBodyD> bodies;
+    for (const Body& body : scene.bodies) bodies.push_back(Copy(body));
+    const test::CScene c = test::ToC(&copy);
+    CairnProblem problem = c.problem;
+    problem.bodies = nullptr;
+    CairnSolution solution = c.solution;
+    solution.velocities = nullptr;
+
+    CairnSettings settings = cairnDefaultSettings();
+    settings.substeps = substeps;
+    const Solver2 c_solver(settings);
+    Solver solver({.substeps = substeps});
+    std::vector<Velocity> velocities(scene.bodies.size());
+    std::vector<CairnVelocityD> got(velocities.size());
+    ASSERT_TRUE(solver.Solve(scene.problem(), scene.impulses(), velocities).ok());
+    ASSERT_EQ(cairnSolveD(c_solver.solver, &problem, bodies.data(), &solution, got.data(), nullptr),
+              cairnOk);
+    ExpectSame(velocities, got);
+    EXPECT_TRUE(test::SameBits(scene.point_impulses, copy.point_impulses));
+
+    const int count = static_cast<int>(got.size());
+    ASSERT_EQ(cairnMeanVelocitiesD(c_solver.solver, got.data(), count), cairnOk);
+    ExpectSame(substeps == 1 ? std::span<const Velocity>(velocities) : solver.mean_velocities(),
+               got);
+  }
+}
+
+TEST(CInterface, NamesWhatIsMissingInDoubles) {
+  const Solver2 solver(cairnDefaultSettings());
+  CairnProblem problem = cairnDefaultProblem();
+  const CairnSolution solution = {};
+  const CairnBodyD body = cairnDefaultBodyD();
+  CairnVelocityD velocity;
+  EXPECT_EQ(cairnSolveD(nullptr, &problem, &body, &solution, &velocity, nullptr), cairnNullPointer);
+  EXPECT_EQ(cairnMeanVelocitiesD(solver.solver, nullptr, 1), cairnNullPointer);
+  problem.bodyCount = 1;
+  CairnReport report;
+  EXPECT_EQ(cairnSolveD(solver.solver, &problem, nullptr, &solution, &velocity, &report),
+            cairnNullPointer);
+  EXPECT_EQ(report.status, cairnNullPointer);
+  EXPECT_EQ(cairnSolveD(solver.solver, &problem, &body, &solution, nullptr, nullptr),
+            cairnNullPointer);
+  EXPECT_EQ(cairnSolveD(solver.solver, &problem, &body, &solution, &velocity, nullptr), cairnOk);
+  EXPECT_EQ(cairnMeanVelocitiesD(solver.solver, &velocity, 2), cairnWrongSize);
 }
 
 TEST(CInterface, PassesEverySettingOn) {

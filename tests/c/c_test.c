@@ -173,7 +173,7 @@ static void RefusesBadProblems(void) {
   Scene scene;
   MakeScene(&scene);
   scene.bodies[1].velocity.linear[2] = NAN;
-  Refused(solver, &scene, cairnNotFinite, "body 1: a number is NaN");
+  Refused(solver, &scene, cairnNotFinite, "body 1: velocity.linear is nan, must be finite");
   MakeScene(&scene);
   scene.problem.points = NULL;
   Refused(solver, &scene, cairnNullPointer, "null");

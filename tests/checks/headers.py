@@ -22,7 +22,7 @@ LIMITS = {
     "core and adapter": ((CORE, ADAPTER), 900),
     "helpers for engines, vectors, memory": (HELPERS, 355),
     "Bullet's multithreaded world": (MANY_THREADS, 150),
-    "interface of C": ((C,), 315),
+    "interface of C": ((C,), 365),
     "matrices": ((LCP,), 300),
 }
 

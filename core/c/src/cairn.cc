@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cairn/cairn.h"
+#include "cairn/cairn_doubles.h"
 
 #include <bit>
 #include <memory>
@@ -94,6 +95,50 @@ CairnStatus Refuse(CairnStatus status, CairnReport* report) {
   return status;
 }
 
+/// cairnSolve() and cairnSolveD().
+/// @pre solver, problem and solution are there
+template <class BodyOfC, class VelocityOfC>
+CairnStatus Solve(CairnSolver* solver, const CairnProblem& problem, const BodyOfC* bodies,
+                  const CairnSolution& solution, VelocityOfC* velocities, CairnReport* report) {
+  solver->reported = false;
+  const CairnStatus status = c::Guarded([&] {
+    c::View view;
+    const CairnStatus looked = c::Look(problem, bodies, solution, &solver->bodies, &view);
+    if (looked != cairnOk) return Refuse(looked, report);
+    if (velocities == nullptr && problem.bodyCount > 0) return Refuse(cairnNullPointer, report);
+    const bool recording = solver->recorder.Begin(view.problem, view.impulses);
+    const CairnStatus solved = Run(view, solver, report);
+    if (recording) solver->recorder.End(solver->solver.settings(), solver->report);
+    solver->recorder.NextFrame();
+    if (solved == cairnOk) c::CopyVelocities(solver->velocities, velocities);
+    return solved;
+  });
+  solver->last = status;
+  if (report != nullptr) report->status = status;
+  return status;
+}
+
+/// cairnMeanVelocities() and cairnMeanVelocitiesD().
+template <class VelocityOfC>
+CairnStatus MeanVelocities(const CairnSolver* solver, VelocityOfC* velocities, int32_t count) {
+  if (solver == nullptr || (velocities == nullptr && count > 0)) return cairnNullPointer;
+  const bool solved = solver->last == cairnOk;
+  const auto bodies = static_cast<int32_t>(solver->velocities.size());
+  if (!solved || count != bodies) return cairnWrongSize;
+  const std::span<const Velocity> means = solver->solver.mean_velocities();
+  c::CopyVelocities(means.empty() ? std::span<const Velocity>(solver->velocities) : means,
+                    velocities);
+  return cairnOk;
+}
+
+/// A body as C++ has it by default.
+template <class BodyOfC>
+BodyOfC DefaultBody() {
+  BodyOfC body{};
+  for (auto& factor : body.linearFactor) factor = 1;
+  return body;
+}
+
 }  // namespace
 
 const char* cairnDescribe(CairnStatus status) {
@@ -115,11 +160,8 @@ const char* cairnDescribe(CairnStatus status) {
 
 uint32_t cairnVersion(void) { return cairnLayout().version; }
 
-CairnBody cairnDefaultBody(void) {
-  CairnBody body{};
-  for (float& factor : body.linearFactor) factor = 1;
-  return body;
-}
+CairnBody cairnDefaultBody(void) { return DefaultBody<CairnBody>(); }
+CairnBodyD cairnDefaultBodyD(void) { return DefaultBody<CairnBodyD>(); }
 CairnContactPoint cairnDefaultContactPoint(void) { return Same<CairnContactPoint>(ContactPoint{}); }
 CairnManifold cairnDefaultManifold(void) {
   return {.bodyA = kWorld,
@@ -218,24 +260,16 @@ CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
   if (solver == nullptr || problem == nullptr || solution == nullptr) {
     return Refuse(cairnNullPointer, report);
   }
-  solver->reported = false;
-  const CairnStatus status = c::Guarded([&] {
-    c::View view;
-    const CairnStatus looked = c::Look(*problem, *solution, &solver->bodies, &view);
-    if (looked != cairnOk) return Refuse(looked, report);
-    if (solution->velocities == nullptr && problem->bodyCount > 0) {
-      return Refuse(cairnNullPointer, report);
-    }
-    const bool recording = solver->recorder.Begin(view.problem, view.impulses);
-    const CairnStatus solved = Run(view, solver, report);
-    if (recording) solver->recorder.End(solver->solver.settings(), solver->report);
-    solver->recorder.NextFrame();
-    if (solved == cairnOk) c::CopyVelocities(solver->velocities, solution->velocities);
-    return solved;
-  });
-  solver->last = status;
-  if (report != nullptr) report->status = status;
-  return status;
+  return Solve(solver, *problem, problem->bodies, *solution, solution->velocities, report);
+}
+
+CairnStatus cairnSolveD(CairnSolver* solver, const CairnProblem* problem, const CairnBodyD* bodies,
+                        const CairnSolution* solution, CairnVelocityD* velocities,
+                        CairnReport* report) {
+  if (solver == nullptr || problem == nullptr || solution == nullptr) {
+    return Refuse(cairnNullPointer, report);
+  }
+  return Solve(solver, *problem, bodies, *solution, velocities, report);
 }
 
 size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
@@ -270,7 +304,7 @@ size_t cairnValidateStrictly(const CairnProblem* problem, const CairnSolution* s
     if (problem == nullptr || solution == nullptr) return cairnNullPointer;
     Array<Body> bodies;
     c::View view;
-    const CairnStatus looked = c::Look(*problem, *solution, &bodies, &view);
+    const CairnStatus looked = c::Look(*problem, problem->bodies, *solution, &bodies, &view);
     if (looked != cairnOk) return looked;
     for (const Finding& finding : ValidateStrictly(view.problem, view.impulses)) {
       said.append(Describe(finding)).append("\n");
@@ -306,14 +340,12 @@ void cairnFreeRecording(CairnRecording* recording) { delete recording; }
 
 CairnStatus cairnMeanVelocities(const CairnSolver* solver, CairnVelocity* velocities,
                                 int32_t count) {
-  if (solver == nullptr || (velocities == nullptr && count > 0)) return cairnNullPointer;
-  const bool solved = solver->last == cairnOk;
-  const auto bodies = static_cast<int32_t>(solver->velocities.size());
-  if (!solved || count != bodies) return cairnWrongSize;
-  const std::span<const Velocity> means = solver->solver.mean_velocities();
-  c::CopyVelocities(means.empty() ? std::span<const Velocity>(solver->velocities) : means,
-                    velocities);
-  return cairnOk;
+  return MeanVelocities(solver, velocities, count);
+}
+
+CairnStatus cairnMeanVelocitiesD(const CairnSolver* solver, CairnVelocityD* velocities,
+                                 int32_t count) {
+  return MeanVelocities(solver, velocities, count);
 }
 
 int32_t cairnRecordingBodies(const CairnRecording* recording) {

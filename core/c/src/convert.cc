@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 namespace cairn::c {
 namespace {
@@ -146,11 +147,14 @@ CairnIsland ToIsland(const IslandReport& from) {
           .residualAngular = from.residual.max_angular};
 }
 
-void CopyBodies(std::span<const CairnBody> from, Array<Body>* to) {
+namespace {
+
+template <class BodyOfC>
+void CopyBodies(std::span<const BodyOfC> from, Array<Body>* to) {
   to->resize(from.size());
-  const auto vector = [](const float* v) { return Vector3(v[0], v[1], v[2]); };
+  const auto vector = [](const auto* v) { return Vector3(v[0], v[1], v[2]); };
   for (size_t i = 0; i < from.size(); ++i) {
-    const CairnBody& body = from[i];
+    const BodyOfC& body = from[i];
     Body& result = (*to)[i];
     result.inv_mass = body.invMass;
     // symmetric, but for rounding: rows are as good as columns
@@ -163,33 +167,40 @@ void CopyBodies(std::span<const CairnBody> from, Array<Body>* to) {
   }
 }
 
-void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to) {
+}  // namespace
+
+template <class VelocityOfC>
+void CopyVelocities(std::span<const Velocity> from, VelocityOfC* to) {
+  using Number = std::remove_extent_t<decltype(to->linear)>;
   for (const Velocity& velocity : from) {
     for (int k = 0; k < 3; ++k) {
-      to->linear[k] = static_cast<float>(velocity.linear[k]);
-      to->angular[k] = static_cast<float>(velocity.angular[k]);
+      to->linear[k] = static_cast<Number>(velocity.linear[k]);
+      to->angular[k] = static_cast<Number>(velocity.angular[k]);
     }
     ++to;
   }
 }
+template void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to);
+template void CopyVelocities(std::span<const Velocity> from, CairnVelocityD* to);
 
-CairnStatus Look(const CairnProblem& from, const CairnSolution& solution, Array<Body>* bodies,
-                 View* view) {
+template <class BodyOfC>
+CairnStatus Look(const CairnProblem& from, const BodyOfC* bodies, const CairnSolution& solution,
+                 Array<Body>* copies, View* view) {
   const std::int32_t counts[] = {from.bodyCount,  from.manifoldCount, from.pointCount,
                                  from.twistCount, from.jointCount,    from.jointRowCount};
   if (*std::min_element(std::begin(counts), std::end(counts)) < 0) return cairnWrongSize;
   const auto missing = [](std::int32_t count, const auto*... arrays) {
     return count > 0 && (... || (arrays == nullptr));
   };
-  if (missing(from.bodyCount, from.bodies) || missing(from.manifoldCount, from.manifolds) ||
+  if (missing(from.bodyCount, bodies) || missing(from.manifoldCount, from.manifolds) ||
       missing(from.pointCount, from.points, solution.points) ||
       missing(from.twistCount, from.twists, solution.twists) ||
       missing(from.jointCount, from.joints) ||
       missing(from.jointRowCount, from.jointRows, solution.jointRows)) {
     return cairnNullPointer;
   }
-  CopyBodies({from.bodies, static_cast<size_t>(from.bodyCount)}, bodies);
-  view->problem = {.bodies = *bodies,
+  CopyBodies(std::span(bodies, static_cast<size_t>(from.bodyCount)), copies);
+  view->problem = {.bodies = *copies,
                    .manifolds = Over<const Manifold>(from.manifolds, from.manifoldCount),
                    .points = Over<const ContactPoint>(from.points, from.pointCount),
                    .contact_law = {.bounce_speed = from.bounceSpeed},
@@ -202,6 +213,11 @@ CairnStatus Look(const CairnProblem& from, const CairnSolution& solution, Array<
                     .joint_rows = Over<float>(solution.jointRows, from.jointRowCount)};
   return cairnOk;
 }
+
+template CairnStatus Look(const CairnProblem&, const CairnBody*, const CairnSolution&, Array<Body>*,
+                          View*);
+template CairnStatus Look(const CairnProblem&, const CairnBodyD*, const CairnSolution&,
+                          Array<Body>*, View*);
 
 std::size_t PutText(std::string_view text, char* to, std::size_t size) {
   if (to != nullptr && size > 0) {

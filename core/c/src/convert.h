@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "cairn/cairn.h"
+#include "cairn/cairn_doubles.h"
 #include "cairn/detail/memory.h"
 #include "cairn/solver.h"
 
@@ -31,17 +32,20 @@ Settings ToSettings(const CairnSettings& settings);
 CairnStatus ToStatus(Status status);
 CairnReport ToReport(const Report& report);
 CairnIsland ToIsland(const IslandReport& island);
-void CopyBodies(std::span<const CairnBody> from, Array<Body>* to);
-void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to);
+/// @param to  as many CairnVelocity or CairnVelocityD
+template <class VelocityOfC>
+void CopyVelocities(std::span<const Velocity> from, VelocityOfC* to);
 
 /// A problem whose counts and pointers fit one another, over the memory of the caller.
 struct View {
   ContactProblem problem;
   Impulses impulses;
 };
-/// cairnOk, or what is wrong with counts and pointers. @param bodies  those of the problem
-CairnStatus Look(const CairnProblem& problem, const CairnSolution& solution, Array<Body>* bodies,
-                 View* view);
+/// cairnOk, or what is wrong with counts and pointers.
+/// @param bodies  of the problem, CairnBody or CairnBodyD, copied to @p copies
+template <class BodyOfC>
+CairnStatus Look(const CairnProblem& problem, const BodyOfC* bodies, const CairnSolution& solution,
+                 Array<Body>* copies, View* view);
 
 /// What snprintf does with "%s".
 std::size_t PutText(std::string_view text, char* to, std::size_t size);

@@ -99,7 +99,8 @@ struct Replay {
   friend bool operator==(const Replay&, const Replay&) = default;
 };
 
-/// A setting out of its range, or a size that does not fit: "<name> is <value>, must be <range>".
+/// A setting out of its range, a size that does not fit, or a field of what was refused: "<name> is
+/// <value>, must be <range>".
 struct BadSetting {
   const char* name = nullptr;  ///< As in Settings, "threads" say; nullptr: all are in range.
   double value = 0;            ///< Of an enum its number, of a budget nanoseconds or work units.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cairn/detail/eigen.h"
+#include "problem/bad_field.h"
 
 namespace cairn {
 namespace {
@@ -290,14 +291,20 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
     const Status status = ValidateManifold(problem, i);
     return status == Status::kOk ? CheckPoints(problem, problem.manifolds[i], impulses) : status;
   };
-  if (refused(problem.bodies.size(), body, &report.bad_body)) return report;
-  if (refused(problem.rows.size(), row, &report.bad_row)) return report;
-  const auto name_field = [&](const auto& items, int bad) {
-    if (report.status == Status::kWrongSize) report.bad_setting = FindBadField(problem, items[bad]);
+  if (refused(problem.bodies.size(), body, &report.bad_body)) {
+    report.bad_setting = FindBadFieldOfBody(problem, report.bad_body, report.status);
     return report;
-  };
+  }
+  if (refused(problem.rows.size(), row, &report.bad_row)) {
+    report.bad_setting = FindBadFieldOfRow(problem, impulses, report.bad_row, report.status);
+    return report;
+  }
   if (refused(problem.joints.size(), joint, &report.bad_joint)) {
-    return name_field(problem.joints, report.bad_joint);
+    const int bad = report.bad_joint;
+    report.bad_setting = report.status == Status::kWrongSize
+                             ? FindBadField(problem, problem.joints[bad])
+                             : FindBadFieldOfJoint(problem, impulses, bad, report.status);
+    return report;
   }
   const float bounce = problem.contact_law.bounce_speed;
   if (!(bounce >= 0)) {
@@ -305,7 +312,10 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
     report.bad_setting = {"problem.contact_law.bounce_speed", bounce, "0 or more"};
   }
   if (report.ok() && refused(problem.manifolds.size(), manifold, &report.bad_manifold)) {
-    return name_field(problem.manifolds, report.bad_manifold);
+    const int bad = report.bad_manifold;
+    report.bad_setting = report.status == Status::kWrongSize
+                             ? FindBadField(problem, problem.manifolds[bad])
+                             : FindBadFieldOfManifold(problem, impulses, bad, report.status);
   }
   return report;
 }

@@ -151,6 +151,7 @@ TEST_P(BadJoint, IsRefusedAndNothingIsWritten) {
     velocities[0].linear.x() = 7;
     const Report report = Solve(settings, &scene, &velocities);
     EXPECT_EQ(report.status, GetParam().status);
+    EXPECT_NE(report.bad_setting.name, nullptr);
     EXPECT_EQ(report.bad_joint, before.size() == scene.joint_rows.size() ? 5 : -1);
     const std::span<const float> now = scene.joint_impulses;
     EXPECT_EQ(std::memcmp(now.data(), before.data(), before.size() * sizeof(float)), 0);
