@@ -13,26 +13,6 @@ namespace cairn::frames {
 
 using cli::SceneChoice;
 
-struct BudgetOptions {
-  std::vector<SceneChoice> scenes;
-  std::vector<double> budgets_ms;
-  int first = 30, last = 70;         ///< frames of a scene
-  std::int64_t most_rows = 2000000;  ///< of all its frames: those after are left out
-  int solves = 2000;                 ///< for each budget
-  int min_sweeps = 1;
-  int threads = 1;
-  Method method = Method::kPgs;
-};
-/// How well Budget::Time is kept, and what is achieved in it.
-void PrintBudgets(const BudgetOptions& options, const std::string& command);
-
-struct SeriesOptions {
-  std::vector<SceneChoice> scenes;
-  int frame = 30;   ///< The first that is looked at.
-  int rounds = 31;  ///< Each measures everything that is compared once.
-};
-/// What a row costs in a sweep, and what the begin and the end of a frame cost beside ten sweeps.
-void PrintCosts(const SeriesOptions& options, const std::string& command);
 /// Frames in a row.
 struct WindowOptions {
   std::vector<SceneChoice> scenes;
@@ -60,6 +40,7 @@ void PrintMtWorlds(const ThreadOptions& options, const std::string& command);
 /// iterations each, no subspace step, one thread), stepped in turn: what they take, and what of it
 /// is spent outside of the solver, which no solver can make faster.
 void PrintSteps(const WindowOptions& options, const std::string& command);
+
 /// Bullet's stock solver against Cairn in its place, on the very same substeps of worlds that
 /// Bullet drives: ten sweeps, no subspace step, one thread, from prepareSolve() to the end of
 /// allSolved().

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Solver on frames of the scenes, recorded from Bullet worlds and solved outside of them.
+// Cairn in worlds of Bullet, timed part by part and beside Bullet.
 #include <fmt/format.h>
 
 #include <exception>
@@ -32,15 +32,6 @@ void AddScenes(CLI::App* app, std::vector<std::string>* words) {
       ->capture_default_str();
 }
 
-void AddSeries(CLI::App* app, SeriesOptions* options) {
-  app->add_option("--frame", options->frame, "First frame looked at")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app->add_option("--rounds", options->rounds, "Repetitions")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-}
-
 void AddFrames(CLI::App* app, int* first, int* count) {
   app->add_option("--frame", *first, "First frame looked at")
       ->check(CLI::Range(0, 10000))
@@ -55,23 +46,6 @@ void AddThreads(CLI::App* app, std::vector<int>* threads) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-}
-
-void AddBudget(CLI::App* app, BudgetOptions* options) {
-  app->add_option("--budget", options->budgets_ms, "[ms], from small to large; may be repeated")
-      ->check(CLI::NonNegativeNumber);
-  app->add_option("--first", options->first, "First frame")->check(CLI::NonNegativeNumber);
-  app->add_option("--last", options->last, "Last frame")->check(CLI::NonNegativeNumber);
-  app->add_option("--most-rows", options->most_rows, "Of all frames that are kept")
-      ->capture_default_str();
-  app->add_option("--solves", options->solves, "For each budget")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  app->add_option("--min-sweeps", options->min_sweeps)->capture_default_str();
-  app->add_option("--threads", options->threads)->capture_default_str();
-  const std::map<std::string, Method> methods = {
-      {"pgs", Method::kPgs}, {"psor", Method::kPsor}, {"pgs-sm", Method::kPgsSm}};
-  app->add_option("--method", options->method)->transform(CLI::CheckedTransformer(methods));
 }
 
 void AddDeadlines(CLI::App* app, DeadlineOptions* options) {
@@ -117,23 +91,8 @@ void AddParts(CLI::App* app, PartsWords* words) {
 }
 
 int Main(int count, char** arguments) {
-  CLI::App app("Budgets, costs and threads of cairn::Solver on frames of the scenes.",
-               "cairn_frames");
+  CLI::App app("Parts, threads and budgets of Cairn in worlds of Bullet.", "cairn_frames");
   app.require_subcommand(1);
-
-  BudgetOptions budget{.scenes = {}, .budgets_ms = {0.25, 0.5, 1, 2, 4}};
-  std::vector<std::string> budget_scenes = {"castle", "pyramid:100", "islands"};
-  CLI::App* const budget_app = app.add_subcommand("budget", "How well Budget::Time is kept");
-  AddScenes(budget_app, &budget_scenes);
-  AddBudget(budget_app, &budget);
-
-  SeriesOptions cost;
-  std::vector<std::string> cost_scenes = {"castle",       "pyramid:100",  "rubble@240",
-                                          "ragdolls@240", "islands",      "pyramid3d:4",
-                                          "pyramid3d:8",  "pyramid3d:14", "pyramid3d:22"};
-  CLI::App* const cost_app = app.add_subcommand("cost", "What rows and frames cost");
-  AddScenes(cost_app, &cost_scenes);
-  AddSeries(cost_app, &cost);
 
   ThreadOptions threads{.window = {.scenes = {}, .frame = 60, .frames = 60}};
   std::vector<std::string> thread_scenes = {"pyramid:100", "pyramid3d:30", "islands:2500",
@@ -194,14 +153,7 @@ int Main(int count, char** arguments) {
   if (!cli::Read(cli::SpellOut(app, typed), &app)) return cli::kFine;
   const std::string command = cli::WithoutPaths("cairn_frames", typed);
   cli::WarnOfTarget("cairn_frames");
-  if (budget.last < budget.first) throw std::invalid_argument("--last is before --first");
-  if (budget_app->parsed()) {
-    budget.scenes = ParseScenes(budget_scenes);
-    PrintBudgets(budget, command);
-  } else if (cost_app->parsed()) {
-    cost.scenes = ParseScenes(cost_scenes);
-    PrintCosts(cost, command);
-  } else if (swap_app->parsed()) {
+  if (swap_app->parsed()) {
     swap.scenes = ParseScenes(swap_scenes);
     PrintSwaps(swap, command);
   } else if (parts_app->parsed()) {

@@ -6,7 +6,6 @@
 
 #include <chrono>
 
-#include "frames/frame_solver.h"
 #include "measure/instrumented_solver.h"
 #include "run/scene_run.h"
 #include "support/duration.h"

@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <ctime>
 #include <utility>
 
-#include "frames/frame_solver.h"
 #include "frames/span_times.h"
 #include "measure/instrumented_solver.h"
 #include "run/scene_run.h"
