@@ -31,10 +31,10 @@ def digits(value):
     return "-" if math.isnan(value) else f"{value:.3g}"
 
 
-def values(lane, key):
+def values(solver, key):
     """A figure of every run: NaN where it does not apply, infinite where the run failed."""
-    return numpy.array([math.inf if seed in lane["failed_seeds"] else math.nan if value is None else value
-                        for seed, value in enumerate(lane["figures"][key]["runs"], 1)], dtype=float)
+    return numpy.array([math.inf if seed in solver["failed_seeds"] else math.nan if value is None else value
+                        for seed, value in enumerate(solver["figures"][key]["runs"], 1)], dtype=float)
 
 
 def median_interval(numbers):
@@ -81,8 +81,8 @@ def holm(p):
     return adjusted
 
 
-def lane_of(scene, budget, name):
-    """Lanes are one for each budget and kind, in this order, and Bullet's."""
+def solver_of(scene, budget, name):
+    """Solvers are one for each budget and kind, in this order, and Bullet's."""
     if name == "Bullet":
         return scene["solvers"][-1]
     kinds = ("sweeps", "accelerated", "steps")
@@ -90,8 +90,8 @@ def lane_of(scene, budget, name):
 
 
 def compare(scenes, budget, first, second):
-    tests = [compare_paired(values(lane_of(scene, budget, first), scene["judged_by"]),
-                            values(lane_of(scene, budget, second), scene["judged_by"])) for scene in scenes]
+    tests = [compare_paired(values(solver_of(scene, budget, first), scene["judged_by"]),
+                            values(solver_of(scene, budget, second), scene["judged_by"])) for scene in scenes]
     for test, p in zip(tests, holm([test["p"] for test in tests])):
         test["p"] = p
     return tests
@@ -104,11 +104,11 @@ def is_worse(test):
 def add_statistics(run):
     """Writes into the file's own structure what is not measured but computed."""
     for scene in run["scenes"]:
-        for lane in scene["solvers"]:
-            runs = len(lane["figures"]["time_ms"]["runs"])
-            lane["collapse_share"] = share_interval(lane["collapsed"], runs)
-            for key, figure in lane["figures"].items():
-                figure["median"] = median_interval(values(lane, key))
+        for solver in scene["solvers"]:
+            runs = len(solver["figures"]["time_ms"]["runs"])
+            solver["collapse_share"] = share_interval(solver["collapsed"], runs)
+            for key, figure in solver["figures"].items():
+                figure["median"] = median_interval(values(solver, key))
     run["comparisons"] = [
         {"budget_ms": budget, "compared": f"{first} with {second}",
          "scenes": {scene["scene"]: test
@@ -143,13 +143,13 @@ def print_comparisons(run, budget):
 
 def print_scene(scene):
     rows = []
-    for lane in scene["solvers"]:
-        share, runs = lane["collapse_share"], len(lane["figures"]["time_ms"]["runs"])
-        falls = lane["can_fall"] or lane["collapsed"] > 0
-        row = [lane["solver"], lane["effort"], f"{lane['collapsed']}/{runs} [{100 * share['low']:.0f}, "
+    for solver in scene["solvers"]:
+        share, runs = solver["collapse_share"], len(solver["figures"]["time_ms"]["runs"])
+        falls = solver["can_fall"] or solver["collapsed"] > 0
+        row = [solver["solver"], solver["effort"], f"{solver['collapsed']}/{runs} [{100 * share['low']:.0f}, "
                f"{100 * share['high']:.0f}] %" if falls else "-"]
         for key, (_, scale) in FIGURES.items():
-            median = {name: scale * value for name, value in lane["figures"][key]["median"].items()}
+            median = {name: scale * value for name, value in solver["figures"][key]["median"].items()}
             same = math.isnan(median["value"]) or median["low"] == median["high"]
             row.append(digits(median["value"]) + ("" if same else f" [{digits(median['low'])}, {digits(median['high'])}]"))
         rows.append(row)

@@ -27,24 +27,24 @@ void AddCells(const Change& change, std::string (*format)(double), std::vector<s
   row->push_back(Describe(change.verdict));
 }
 
-TextTable LaneTable(const Comparison& comparison) {
+TextTable SolverTable(const Comparison& comparison) {
   TextTable table;
   table.columns = {{"scene", ""},        {"solver", ""},  {"time", "old ms"}, {"", "new ms"},
                    {"change", "%"},      {"from", "%"},   {"to", "%"},        {"", ""},
                    {"error", "old m/s"}, {"", "new m/s"}, {"change", "%"},    {"from", "%"},
                    {"to", "%"},          {"", ""}};
   table.names = 2;
-  for (const LaneComparison& lane : comparison.lanes) {
+  for (const SolverComparison& solver : comparison.solvers) {
     std::vector<std::string>& row = table.rows.emplace_back();
-    row = {lane.scene, lane.solver};
-    if (!lane.failure_before.empty() || !lane.failure_after.empty()) {
-      row.push_back(lane.failure_after.empty()    ? "failed before"
-                    : lane.failure_before.empty() ? "FAILED"
-                                                  : "failed before and after");
+    row = {solver.scene, solver.name};
+    if (!solver.failure_before.empty() || !solver.failure_after.empty()) {
+      row.push_back(solver.failure_after.empty()    ? "failed before"
+                    : solver.failure_before.empty() ? "FAILED"
+                                                    : "failed before and after");
       continue;
     }
-    AddCells(lane.time, &FormatTime, &row);
-    AddCells(lane.error, &FormatNumber, &row);
+    AddCells(solver.time, &FormatTime, &row);
+    AddCells(solver.error, &FormatNumber, &row);
   }
   return table;
 }
@@ -62,17 +62,17 @@ Json ToJson(const Change& change) {
           {"high", Number(change.ratio.high)},   {"verdict", Describe(change.verdict)}};
 }
 
-Json ToJson(const LaneComparison& lane) {
+Json ToJson(const SolverComparison& solver) {
   const auto failure = [](const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
   };
-  return {{"scene", lane.scene},
-          {"solver", lane.solver},
-          {"effort", lane.effort},
-          {"time_ms", ToJson(lane.time)},
-          {"residual_m_s", ToJson(lane.error)},
-          {"failure_old", failure(lane.failure_before)},
-          {"failure_new", failure(lane.failure_after)}};
+  return {{"scene", solver.scene},
+          {"solver", solver.name},
+          {"effort", solver.effort},
+          {"time_ms", ToJson(solver.time)},
+          {"residual_m_s", ToJson(solver.error)},
+          {"failure_old", failure(solver.failure_before)},
+          {"failure_new", failure(solver.failure_after)}};
 }
 
 Json ToJson(const SceneNoise& noise) {
@@ -88,7 +88,7 @@ Json ToJson(const SceneNoise& noise) {
 }  // namespace
 
 std::string ToText(const Comparison& comparison) {
-  std::string text = LaneTable(comparison).ToText() + "\n";
+  std::string text = SolverTable(comparison).ToText() + "\n";
   text += Lines("Note: ", comparison.warnings);
   text += Lines("", comparison.unknown);
   text += Lines("REGRESSION: ", comparison.regressions);
@@ -99,14 +99,14 @@ std::string ToText(const Comparison& comparison) {
 }
 
 std::string ToJson(const Comparison& comparison) {
-  Json lanes = Json::array(), noise = Json::array();
-  for (const LaneComparison& lane : comparison.lanes) lanes.push_back(ToJson(lane));
+  Json solvers = Json::array(), noise = Json::array();
+  for (const SolverComparison& solver : comparison.solvers) solvers.push_back(ToJson(solver));
   for (const SceneNoise& scene : comparison.noise) noise.push_back(ToJson(scene));
   const Json json = {
       {"schema_version", 1},
       {"thresholds",
        {{"time", comparison.thresholds.time}, {"error", comparison.thresholds.error}}},
-      {"lanes", lanes},
+      {"lanes", solvers},
       {"noise", noise},
       {"warnings", comparison.warnings},
       {"unknown", comparison.unknown},

@@ -60,17 +60,17 @@ const RecordedScene& FindScene(const RecordedScene& wanted, const RunFile& befor
                                     after.path, wanted.name, before.path));
 }
 
-const RecordedLane& FindLane(const RecordedLane& wanted, const RecordedScene& scene,
-                             const RunFile& before, const RunFile& after) {
-  for (const RecordedLane& lane : scene.lanes) {
-    if (lane.solver != wanted.solver) continue;
-    if (lane.effort == wanted.effort) return lane;
-    throw Failure(kUsage, fmt::format("{} was told differently: {}", wanted.solver,
-                                      Differ(before, wanted.effort, after, lane.effort)));
+const RecordedSolver& FindSolver(const RecordedSolver& wanted, const RecordedScene& scene,
+                                 const RunFile& before, const RunFile& after) {
+  for (const RecordedSolver& solver : scene.solvers) {
+    if (solver.name != wanted.name) continue;
+    if (solver.effort == wanted.effort) return solver;
+    throw Failure(kUsage, fmt::format("{} was told differently: {}", wanted.name,
+                                      Differ(before, wanted.effort, after, solver.effort)));
   }
   throw Failure(kUsage, fmt::format("'{}' lacks {} on {}, which '{}' has: make both with the same "
                                     "command",
-                                    after.path, wanted.solver, scene.name, before.path));
+                                    after.path, wanted.name, scene.name, before.path));
 }
 
 /// Whether the same frames count in all repetitions of both.
@@ -101,9 +101,9 @@ Verdict Judge(const Ratio& ratio, double threshold) {
   return ratio.value > 1 + threshold || could_be_twice ? Verdict::kUnknown : Verdict::kSame;
 }
 
-Change CompareLaneTimes(const RecordedLane& before, const RecordedScene& scene_before,
-                        const RecordedLane& after, const RecordedScene& scene_after,
-                        double threshold) {
+Change CompareSolverTimes(const RecordedSolver& before, const RecordedScene& scene_before,
+                          const RecordedSolver& after, const RecordedScene& scene_after,
+                          double threshold) {
   Change change{.before = Pooled(&Median, before.times),
                 .after = Pooled(&Median, after.times),
                 .ratio = {},
@@ -115,7 +115,8 @@ Change CompareLaneTimes(const RecordedLane& before, const RecordedScene& scene_b
   return change;
 }
 
-Change CompareLaneErrors(const RecordedLane& before, const RecordedLane& after, double threshold) {
+Change CompareSolverErrors(const RecordedSolver& before, const RecordedSolver& after,
+                           double threshold) {
   Change change{.before = Pooled(&Mean, before.residuals),
                 .after = Pooled(&Mean, after.residuals),
                 .ratio = {},
@@ -146,9 +147,9 @@ std::string Between(const Ratio& ratio) {
   return fmt::format("between {:+.1f} and {:+.1f} %", Percent(ratio.low), Percent(ratio.high));
 }
 
-void Report(const LaneComparison& lane, const Change& change, const char* slower,
+void Report(const SolverComparison& solver, const Change& change, const char* slower,
             const SceneNoise& noise, Comparison* result) {
-  const std::string who = fmt::format("{}, {} ({})", lane.scene, lane.solver, lane.effort);
+  const std::string who = fmt::format("{}, {} ({})", solver.scene, solver.name, solver.effort);
   if (change.verdict == Verdict::kRegression) {
     result->regressions.push_back(fmt::format("{}: {:.1f} % {} ({}); {}.", who,
                                               Percent(change.ratio.value), slower,
@@ -160,21 +161,21 @@ void Report(const LaneComparison& lane, const Change& change, const char* slower
   }
 }
 
-void ReportFailures(const LaneComparison& lane, Comparison* result) {
-  if (lane.failure_after.empty()) return;
-  const std::string text = fmt::format("{}, {} ({}): failed {}", lane.scene, lane.solver,
-                                       lane.effort, lane.failure_after);
-  if (lane.failure_before.empty()) {
+void ReportFailures(const SolverComparison& solver, Comparison* result) {
+  if (solver.failure_after.empty()) return;
+  const std::string text = fmt::format("{}, {} ({}): failed {}", solver.scene, solver.name,
+                                       solver.effort, solver.failure_after);
+  if (solver.failure_before.empty()) {
     result->regressions.push_back(text + "; it did not fail before.");
   } else {
-    result->warnings.push_back(text + ", and before " + lane.failure_before);
+    result->warnings.push_back(text + ", and before " + solver.failure_before);
   }
 }
 
-/// Frames of such a lane do other work in each repetition.
-bool GoesByTheClock(const RecordedLane& lane) {
-  return !lane.effort.ends_with("iterations") && !lane.effort.ends_with("units") &&
-         lane.effort != "until done";
+/// Frames of such a solver do other work in each repetition.
+bool GoesByTheClock(const RecordedSolver& solver) {
+  return !solver.effort.ends_with("iterations") && !solver.effort.ends_with("units") &&
+         solver.effort != "until done";
 }
 
 void CompareScene(const RecordedScene& before, const RecordedScene& after, const RunFile& old_file,
@@ -182,29 +183,30 @@ void CompareScene(const RecordedScene& before, const RecordedScene& after, const
   const SceneNoise& noise = result->noise.emplace_back(
       SceneNoise{before.name, Spread(before.arithmetic), Spread(before.memory),
                  Spread(after.arithmetic), Spread(after.memory)});
-  for (const RecordedLane& old_lane : before.lanes) {
-    const RecordedLane& new_lane = FindLane(old_lane, after, old_file, new_file);
-    LaneComparison& lane = result->lanes.emplace_back();
-    lane.scene = before.name;
-    lane.solver = old_lane.solver;
-    lane.effort = old_lane.effort;
-    lane.failure_before = old_lane.failure;
-    lane.failure_after = new_lane.failure;
-    ReportFailures(lane, result);
-    if (!old_lane.failure.empty() || !new_lane.failure.empty()) continue;
-    lane.time = CompareLaneTimes(old_lane, before, new_lane, after, result->thresholds.time);
-    lane.error = CompareLaneErrors(old_lane, new_lane, result->thresholds.error);
-    if (GoesByTheClock(old_lane)) {
-      lane.time.verdict = lane.error.verdict = Verdict::kUnknown;
+  for (const RecordedSolver& old_solver : before.solvers) {
+    const RecordedSolver& new_solver = FindSolver(old_solver, after, old_file, new_file);
+    SolverComparison& solver = result->solvers.emplace_back();
+    solver.scene = before.name;
+    solver.name = old_solver.name;
+    solver.effort = old_solver.effort;
+    solver.failure_before = old_solver.failure;
+    solver.failure_after = new_solver.failure;
+    ReportFailures(solver, result);
+    if (!old_solver.failure.empty() || !new_solver.failure.empty()) continue;
+    solver.time =
+        CompareSolverTimes(old_solver, before, new_solver, after, result->thresholds.time);
+    solver.error = CompareSolverErrors(old_solver, new_solver, result->thresholds.error);
+    if (GoesByTheClock(old_solver)) {
+      solver.time.verdict = solver.error.verdict = Verdict::kUnknown;
       result->unknown.push_back(fmt::format(
           "{}, {} ({}): goes by the clock, so that work and error follow the machine; not judged.",
-          lane.scene, lane.solver, lane.effort));
+          solver.scene, solver.name, solver.effort));
       continue;
     }
-    Report(lane, lane.time, "slower", noise, result);
-    Report(lane, lane.error, "less accurate", noise, result);
+    Report(solver, solver.time, "slower", noise, result);
+    Report(solver, solver.error, "less accurate", noise, result);
   }
-  if (after.lanes.size() > before.lanes.size()) {
+  if (after.solvers.size() > before.solvers.size()) {
     result->warnings.push_back(fmt::format("{}: '{}' has solvers that '{}' lacks", before.name,
                                            new_file.path, old_file.path));
   }

@@ -26,15 +26,15 @@ enum class Verdict {
 /// "same", "REGRESSION", "improved", "cannot tell" or "-".
 const char* Describe(Verdict verdict);
 
-/// A quantity of a lane in both runs.
+/// A quantity of a solver in both runs.
 struct Change {
   double before = 0, after = 0;  ///< Medians of times [ms], means of residuals [m/s].
   Ratio ratio;
   Verdict verdict = Verdict::kNotMeasured;
 };
 
-struct LaneComparison {
-  std::string scene, solver, effort;
+struct SolverComparison {
+  std::string scene, name, effort;
   Change time, error;
   std::string failure_before, failure_after;
 };
@@ -47,7 +47,7 @@ struct SceneNoise {
 
 struct Comparison {
   Thresholds thresholds;
-  std::vector<LaneComparison> lanes;
+  std::vector<SolverComparison> solvers;
   std::vector<SceneNoise> noise;
   std::vector<std::string> warnings;     ///< What the user should know, a sentence each.
   std::vector<std::string> regressions;  ///< A sentence each.
@@ -58,7 +58,7 @@ struct Comparison {
 /// later one lacks what the earlier one has.
 Comparison Compare(const RunFile& before, const RunFile& after, const Thresholds& thresholds);
 
-/// A row for each lane, below them the sentences.
+/// A row for each solver, below them the sentences.
 std::string ToText(const Comparison& comparison);
 
 /// The same, "schema_version": 1. Ratios are of the later run and the earlier; what was not

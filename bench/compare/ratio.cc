@@ -156,7 +156,7 @@ std::vector<double> LogMedians(const Repetitions& series) {
 
 }  // namespace
 
-Ratio CompareTimes(const MeasuredLane& before, const MeasuredLane& after) {
+Ratio CompareTimes(const MeasuredSolver& before, const MeasuredSolver& after) {
   const Picks frames = CountedFrames(before.times);
   const std::vector<double> clock = Medians(before.arithmetic),
                             clock_after = Medians(after.arithmetic);

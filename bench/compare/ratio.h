@@ -11,8 +11,8 @@ struct Ratio {
   double low = 1, high = 1;  ///< It lies between these, as value does.
 };
 
-/// A lane in one run and the machine beside it; all of the same frames.
-struct MeasuredLane {
+/// A solver in one run and the machine beside it; all of the same frames.
+struct MeasuredSolver {
   const Repetitions& times;                ///< Of the solver [ms].
   const Repetitions &arithmetic, &memory;  ///< Of the metronome [ms].
 };
@@ -33,7 +33,7 @@ inline constexpr int kFewestRepetitions = 3;
 ///   - with fewer repetitions than kFewestRepetitions, 3 % more: what they leave in of
 ///   interruptions.
 /// @pre the same frames are finite everywhere
-Ratio CompareTimes(const MeasuredLane& before, const MeasuredLane& after);
+Ratio CompareTimes(const MeasuredSolver& before, const MeasuredSolver& after);
 
 /// The ratio of mean residuals, the mean over repetitions taken first; the interval is that of
 /// other repetitions and frames. Exactly 1 where residuals are the same. Residuals below what

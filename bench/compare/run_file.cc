@@ -35,17 +35,17 @@ Repetitions AllSeries(const Json& repetitions, const char* name) {
   return all;
 }
 
-RecordedLane ReadLane(const Json& json) {
-  RecordedLane lane{.solver = json.at("solver"),
-                    .effort = json.at("effort"),
-                    .failure = {},
-                    .times = AllSeries(json.at("repetitions"), "time_ms"),
-                    .residuals = AllSeries(json.at("repetitions"), "residual_m_s")};
+RecordedSolver ReadSolver(const Json& json) {
+  RecordedSolver solver{.name = json.at("solver"),
+                        .effort = json.at("effort"),
+                        .failure = {},
+                        .times = AllSeries(json.at("repetitions"), "time_ms"),
+                        .residuals = AllSeries(json.at("repetitions"), "residual_m_s")};
   if (const Json& failure = json.at("failure"); !failure.is_null()) {
-    lane.failure = fmt::format("at frame {}, {}", failure.at("frame").get<int>(),
-                               failure.at("reason").get<std::string>());
+    solver.failure = fmt::format("at frame {}, {}", failure.at("frame").get<int>(),
+                                 failure.at("reason").get<std::string>());
   }
-  return lane;
+  return solver;
 }
 
 /// Whether series have the same numbers of repetitions and frames, and nothing but what can be.
@@ -61,8 +61,8 @@ void CheckSeries(const RecordedScene& scene) {
     return true;
   };
   bool fine = !scene.arithmetic.empty() && fits(scene.arithmetic) && fits(scene.memory);
-  for (const RecordedLane& lane : scene.lanes) {
-    fine = fine && (!lane.failure.empty() || (fits(lane.times) && fits(lane.residuals)));
+  for (const RecordedSolver& solver : scene.solvers) {
+    fine = fine && (!solver.failure.empty() || (fits(solver.times) && fits(solver.residuals)));
   }
   if (!fine)
     throw std::invalid_argument("numbers of frames differ, or are negative, in " + scene.name);
@@ -74,8 +74,8 @@ RecordedScene ReadScene(const Json& json) {
                                            json.at("seed").dump(), json.at("bodies").dump()),
                       .arithmetic = AllSeries(json.at("metronome"), "arithmetic_ms"),
                       .memory = AllSeries(json.at("metronome"), "memory_ms"),
-                      .lanes = {}};
-  for (const Json& solver : json.at("solvers")) scene.lanes.push_back(ReadLane(solver));
+                      .solvers = {}};
+  for (const Json& solver : json.at("solvers")) scene.solvers.push_back(ReadSolver(solver));
   CheckSeries(scene);
   return scene;
 }

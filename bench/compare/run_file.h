@@ -10,8 +10,8 @@ namespace cairn::cli {
 using Repetitions = std::vector<std::vector<double>>;
 
 /// A solver on a scene, as far as runs can be compared by it.
-struct RecordedLane {
-  std::string solver, effort;
+struct RecordedSolver {
+  std::string name, effort;
   std::string failure;    ///< With its frame; empty if it did not fail.
   Repetitions times;      ///< [ms]
   Repetitions residuals;  ///< [m/s]
@@ -21,7 +21,7 @@ struct RecordedScene {
   std::string name;
   std::string world;               ///< Size, seed and bodies, in words.
   Repetitions arithmetic, memory;  ///< The metronome [ms].
-  std::vector<RecordedLane> lanes;
+  std::vector<RecordedSolver> solvers;
 };
 
 /// What must be the same, or should be, for two runs to be comparable: its name and value.

@@ -70,7 +70,7 @@ Substep Describe(const bullet::ConstraintSolver& solver, double cpu_us) {
 }
 
 /// What came of the substeps of a row of the table.
-struct Lane {
+struct Tally {
   /// @param late  the time was up before the sweeps that are made in any case were done
   void Keep(const cli::ThreadTime& time, const Report& report, double budget_ms, bool late) {
     const double cpu_us = 1e3 * (time.cpu - budget_ms), wall_us = 1e3 * (time.wall - budget_ms);
@@ -124,7 +124,7 @@ class TimedSolver final : public btConstraintSolver {
   }
 
   /// Where substeps go from now on; nullptr: nowhere.
-  void KeepIn(Lane* lane) { lane_ = lane; }
+  void KeepIn(Tally* tally) { tally_ = tally; }
 
   void prepareSolve(int bodies, int manifolds) override { solver_.prepareSolve(bodies, manifolds); }
   btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,
@@ -139,12 +139,12 @@ class TimedSolver final : public btConstraintSolver {
     solver_.allSolved(info, debug_drawer);
     const cli::ThreadTime time = stopwatch.Read();
     const bool solved = !solver_.fell_back() && !solver_.report().islands.empty();
-    if (lane_ == nullptr || !solved) return;
+    if (tally_ == nullptr || !solved) return;
     // a thread that lost its core is late for another reason
     const bool fitted = !on_cpu_ && time.preempted;
     const bool late = !fitted && CannotFit(solver_.report(), least_sweeps_);
-    lane_->Keep(time, solver_.report(), budget_ms_, late);
-    if (!late) lane_->KeepWorst(solver_, worst_);
+    tally_->Keep(time, solver_.report(), budget_ms_, late);
+    if (!late) tally_->KeepWorst(solver_, worst_);
   }
   void reset() override { solver_.reset(); }
   btConstraintSolverType getSolverType() const override { return solver_.getSolverType(); }
@@ -155,67 +155,67 @@ class TimedSolver final : public btConstraintSolver {
   double budget_ms_;
   int least_sweeps_, worst_;
   bool on_cpu_;
-  Lane* lane_ = nullptr;
+  Tally* tally_ = nullptr;
 };
 
 void RunScene(const SceneChoice& choice, const DeadlineOptions& options, double budget_ms,
-              Lane* lane) {
+              Tally* tally) {
   TimedSolver solver(options, budget_ms);
   cli::SceneRun run(choice, &solver);
   run.Skip(choice.FirstFrame(options.warm_up));
-  solver.KeepIn(lane);
-  lane->world = NameOf(choice);
-  for (lane->frame = 0; lane->frame < options.frames; ++lane->frame) run.Step();
+  solver.KeepIn(tally);
+  tally->world = NameOf(choice);
+  for (tally->frame = 0; tally->frame < options.frames; ++tally->frame) run.Step();
 }
 
 void RunRandomWorld(std::uint64_t seed, const DeadlineOptions& options, double budget_ms,
-                    Lane* lane) {
+                    Tally* tally) {
   TimedSolver solver(options, budget_ms);
   bench::RandomWorld world({.seed = seed}, &solver);
   const int frames = world.Frames(options.seconds);
-  lane->world = fmt::format("seed {}", seed);
+  tally->world = fmt::format("seed {}", seed);
   for (int frame = 0; frame < frames; ++frame) {
-    if (frame == options.warm_up) solver.KeepIn(lane);
-    lane->frame = frame;
+    if (frame == options.warm_up) solver.KeepIn(tally);
+    tally->frame = frame;
     world.Step();
   }
 }
 
 /// What the machine does to a thread that only waits for its time to be up: no solver keeps a
 /// budget better than that.
-Lane WaitForTheClock(const DeadlineOptions& options, double budget_ms) {
+Tally WaitForTheClock(const DeadlineOptions& options, double budget_ms) {
   const auto times = static_cast<int>(1e3 * options.seconds / std::max(budget_ms, 0.05));
   const cli::SolverClock clock = options.clock == BudgetClock::kThreadCpu
                                      ? cli::SolverClock::kThreadCpu
                                      : cli::SolverClock::kWall;
-  Lane lane;
+  Tally tally;
   for (int i = 0; i < times; ++i) {
     const cli::ThreadStopwatch stopwatch;
     const double end = cli::Now(clock) + budget_ms;
     while (cli::Now(clock) < end) {
     }
-    lane.Keep(stopwatch.Read(), Report(), budget_ms, false);
+    tally.Keep(stopwatch.Read(), Report(), budget_ms, false);
   }
-  return lane;
+  return tally;
 }
 
-void AddRow(const std::string& name, double budget_ms, const Lane& lane, cli::TextTable* table) {
-  const double all = lane.substeps;
-  table->rows.push_back({name, fmt::format("{:g}", budget_ms), fmt::format("{}", lane.substeps),
-                         Spread(lane.cpu), Spread(lane.wall_calm), Spread(lane.wall),
-                         Percent(lane.preempted, all),
-                         Percent(static_cast<double>(lane.too_late.size()), all),
-                         lane.too_late.empty() ? "-" : fmt::format("{:.0f}", Median(lane.too_late)),
-                         fmt::format("{:.0f}", Median(lane.sweeps)),
-                         fmt::format("{:.2f}", lane.steps / std::max(1.0, all)),
-                         fmt::format("{:.2g}", cli::Mean(lane.residuals))});
+void AddRow(const std::string& name, double budget_ms, const Tally& tally, cli::TextTable* table) {
+  const double all = tally.substeps;
+  table->rows.push_back(
+      {name, fmt::format("{:g}", budget_ms), fmt::format("{}", tally.substeps), Spread(tally.cpu),
+       Spread(tally.wall_calm), Spread(tally.wall), Percent(tally.preempted, all),
+       Percent(static_cast<double>(tally.too_late.size()), all),
+       tally.too_late.empty() ? "-" : fmt::format("{:.0f}", Median(tally.too_late)),
+       fmt::format("{:.0f}", Median(tally.sweeps)),
+       fmt::format("{:.2f}", tally.steps / std::max(1.0, all)),
+       fmt::format("{:.2g}", cli::Mean(tally.residuals))});
 }
 
-void AddWorst(double budget_ms, const Lane& lane, cli::TextTable* table) {
+void AddWorst(double budget_ms, const Tally& tally, cli::TextTable* table) {
   const auto us = [](std::chrono::nanoseconds time) {
     return fmt::format("{:.0f}", 1e-3 * static_cast<double>(time.count()));
   };
-  for (const Substep& substep : lane.worst) {
+  for (const Substep& substep : tally.worst) {
     table->rows.push_back(
         {substep.world, fmt::format("{:g}", budget_ms), fmt::format("{}", substep.frame),
          fmt::format("{:.0f}", substep.cpu_us), us(substep.times.build), us(substep.times.solve),
@@ -257,19 +257,19 @@ void PrintDeadlines(const DeadlineOptions& options, const std::string& command) 
   }
   for (const SceneChoice& scene : options.scenes) {
     for (const double budget : options.budgets_ms) {
-      Lane lane;
-      RunScene(scene, options, budget, &lane);
-      AddRow(NameOf(scene), budget, lane, &table);
-      AddWorst(budget, lane, &worst);
+      Tally tally;
+      RunScene(scene, options, budget, &tally);
+      AddRow(NameOf(scene), budget, tally, &table);
+      AddWorst(budget, tally, &worst);
     }
   }
   for (const double budget : options.budgets_ms) {
-    Lane lane;
+    Tally tally;
     for (int i = 0; i < options.worlds; ++i) {
-      RunRandomWorld(options.first_seed + static_cast<std::uint64_t>(i), options, budget, &lane);
+      RunRandomWorld(options.first_seed + static_cast<std::uint64_t>(i), options, budget, &tally);
     }
-    if (options.worlds > 0) AddRow("random worlds", budget, lane, &table);
-    AddWorst(budget, lane, &worst);
+    if (options.worlds > 0) AddRow("random worlds", budget, tally, &table);
+    AddWorst(budget, tally, &worst);
   }
   fmt::print("{}\n", table.ToMarkdown());
   if (!worst.rows.empty()) fmt::print("The latest substeps:\n\n{}\n", worst.ToMarkdown());

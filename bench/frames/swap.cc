@@ -61,13 +61,13 @@ class Swap {
     const std::array<btConstraintSolver*, 3> solvers = {&bullet_, &fast_, &reference_};
     const std::array<std::vector<double>*, 3> to = {&times.bullet, &times.fast, &times.reference};
     for (size_t k = 0; k < solvers.size(); ++k, ++turn_) {
-      const size_t lane = turn_ % solvers.size();
+      const size_t who = turn_ % solvers.size();
       substep->Restore();
       spans_.Clear();
       const cli::ThreadStopwatch stopwatch;
-      substep->SolveWith(solvers[lane], ten, nullptr);
-      to[lane]->push_back(1e3 * stopwatch.Read().cpu);
-      if (solvers[lane] == &fast_) AddParts();
+      substep->SolveWith(solvers[who], ten, nullptr);
+      to[who]->push_back(1e3 * stopwatch.Read().cpu);
+      if (solvers[who] == &fast_) AddParts();
     }
     ++turn_;
   }

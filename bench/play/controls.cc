@@ -19,17 +19,17 @@ using cli::kUsage;
 
 constexpr int kMostIterations = 10'000;
 
-void AddLane(const std::string& side, LaneControls* lane, std::vector<Field>* fields) {
+void AddSide(const std::string& side, PlayerControls* player, std::vector<Field>* fields) {
   std::vector<std::string_view> solvers;
   for (const cli::SolverEntry& entry : cli::Solvers()) solvers.push_back(entry.name);
   fields->insert(fields->end(),
-                 {{side + ".solver", &lane->solver, 0, 0, solvers},
-                  {side + ".iterations", &lane->iterations, 1, kMostIterations},
-                  {side + ".budget", &lane->budget, 0, 0, {kNoBudget, kFixed, kMatch, kRest}},
-                  {side + ".budget_ms", &lane->budget_ms, 0.01, 1000},
-                  {side + ".threads", &lane->threads, 1, 64},
-                  {side + ".steps", &lane->steps},
-                  {side + ".acceleration", &lane->acceleration}});
+                 {{side + ".solver", &player->solver, 0, 0, solvers},
+                  {side + ".iterations", &player->iterations, 1, kMostIterations},
+                  {side + ".budget", &player->budget, 0, 0, {kNoBudget, kFixed, kMatch, kRest}},
+                  {side + ".budget_ms", &player->budget_ms, 0.01, 1000},
+                  {side + ".threads", &player->threads, 1, 64},
+                  {side + ".steps", &player->steps},
+                  {side + ".acceleration", &player->acceleration}});
 }
 
 struct Setter {
@@ -82,8 +82,8 @@ std::vector<Field> Fields(Controls* controls) {
                                {"panels", &c.panels},
                                {"interpolate", &c.interpolate},
                                {"colours", &c.colours, 0, 0, {"stone", "islands"}}};
-  AddLane("left", &c.lanes[0], &fields);
-  AddLane("right", &c.lanes[1], &fields);
+  AddSide("left", &c.players[0], &fields);
+  AddSide("right", &c.players[1], &fields);
   return fields;
 }
 
@@ -100,17 +100,17 @@ std::span<const Preset> Presets() {
   return presets;
 }
 
-void UsePreset(std::string_view name, int lane, Controls* controls) {
+void UsePreset(std::string_view name, int side, Controls* controls) {
   std::vector<std::string> names;
   for (const Preset& preset : Presets()) names.emplace_back(preset.name);
   const size_t index =
       cli::FindName("preset", name, names, fmt::format("presets are {}", fmt::join(names, ", ")));
   const Preset& preset = Presets()[index];
-  controls->lanes[lane] = preset.lane;
-  if (preset.lane.budget != kMatch) return;
+  controls->players[side] = preset.player;
+  if (preset.player.budget != kMatch) return;
   controls->worlds = 2;
-  LaneControls& other = controls->lanes[1 - lane];
-  if (!other.solver.starts_with("bullet")) other = Presets()[0].lane;
+  PlayerControls& other = controls->players[1 - side];
+  if (!other.solver.starts_with("bullet")) other = Presets()[0].player;
 }
 
 }  // namespace cairn::play

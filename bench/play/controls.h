@@ -13,12 +13,12 @@ namespace cairn::play {
 
 /// Where the budget of a solver with a clock comes from.
 inline constexpr std::string_view kNoBudget = "none";  ///< Iterations decide.
-inline constexpr std::string_view kFixed = "fixed";    ///< LaneControls::budget_ms.
+inline constexpr std::string_view kFixed = "fixed";    ///< PlayerControls::budget_ms.
 inline constexpr std::string_view kMatch = "match";    ///< What the other world's solver takes.
 inline constexpr std::string_view kRest = "rest";      ///< What a picture has left.
 
 /// What one world is solved with. May change at any time.
-struct LaneControls {
+struct PlayerControls {
   std::string solver = "cairn";  ///< As in `cairn list solvers`.
   int iterations = 10;
   std::string budget{kNoBudget};
@@ -26,7 +26,7 @@ struct LaneControls {
   int threads = 1;
   bool steps = true;         ///< Subspace steps, Settings::steps.
   bool acceleration = true;  ///< Acceleration::kNncg.
-  friend bool operator==(const LaneControls&, const LaneControls&) = default;
+  friend bool operator==(const PlayerControls&, const PlayerControls&) = default;
 };
 
 /// Which world. A change takes effect with a restart.
@@ -43,7 +43,7 @@ struct SceneControls {
 struct Controls {
   SceneControls scene;
   int worlds = 2;  ///< 1: the left one only.
-  std::array<LaneControls, 2> lanes = {LaneControls{.solver = "bullet-si"}, LaneControls{}};
+  std::array<PlayerControls, 2> players = {PlayerControls{.solver = "bullet-si"}, PlayerControls{}};
   double rate = 60;  ///< Steps a second [Hz]. Random worlds have their own.
   int substeps = 1;  ///< Parts that Bullet takes a step in.
   bool sleep = false;
@@ -73,12 +73,12 @@ void Set(const Field& field, std::string_view text);
 /// As commands and panels name them.
 struct Preset {
   std::string_view name, title;
-  LaneControls lane;
+  PlayerControls player;
 };
 std::span<const Preset> Presets();
 
-/// Puts a preset into a lane, 0 or 1. "Cairn in Bullet's time" needs a Bullet beside it, and gets
+/// Puts a preset into a side, 0 or 1. "Cairn in Bullet's time" needs a Bullet beside it, and gets
 /// one. @throws cli::Failure (kUsage) for an unknown name
-void UsePreset(std::string_view name, int lane, Controls* controls);
+void UsePreset(std::string_view name, int side, Controls* controls);
 
 }  // namespace cairn::play

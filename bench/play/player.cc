@@ -22,12 +22,12 @@ constexpr btScalar kBallDensity = 600;  // [kg/m^3]
 
 }  // namespace
 
-Player::Player(const Controls& controls, const LaneControls& lane) {
-  SetSolver(lane.solver);
+Player::Player(const Controls& controls, const PlayerControls& own) {
+  SetSolver(own.solver);
   stage_ = MakeStage(controls.scene, watched_.get());
   watched_->Watch(stage_->world().bullet());
   defaults_ = stage_->world().solver_info();
-  Apply(controls, lane);
+  Apply(controls, own);
 }
 
 Player::~Player() { Release(); }
@@ -48,16 +48,15 @@ void Player::SetSolver(const std::string& name) {
   contestant_ = std::move(contestant);
 }
 
-void Player::Apply(const Controls& controls, const LaneControls& lane) {
-  if (entry_->name != lane.solver) SetSolver(lane.solver);
-  effort_.iterations = lane.iterations;
-  contestant_->AllowThreads(lane.threads);
+void Player::Apply(const Controls& controls, const PlayerControls& own) {
+  if (entry_->name != own.solver) SetSolver(own.solver);
+  effort_.iterations = own.iterations;
+  contestant_->AllowThreads(own.threads);
   if (cairn() != nullptr) {
-    cairn()->settings().steps = lane.steps;
-    cairn()->settings().acceleration =
-        lane.acceleration ? Acceleration::kNncg : Acceleration::kNone;
+    cairn()->settings().steps = own.steps;
+    cairn()->settings().acceleration = own.acceleration ? Acceleration::kNncg : Acceleration::kNone;
   }
-  lane_ = lane;
+  own_ = own;
   measure_ = controls.measure;
   substeps_ = controls.substeps;
   if (stage_->has_own_steps()) return;
@@ -139,11 +138,11 @@ void Player::Keep(const Sample& sample) {
 void Player::SolveRecording() {
   cli::FrameWorld& recorded = *stage_->recorded();
   Settings settings = recorded.problem().frame.settings;
-  settings.threads = lane_.threads;
-  settings.steps = lane_.steps && entry_->name != "cairn-pgs";
-  settings.acceleration = lane_.acceleration ? Acceleration::kNncg : Acceleration::kNone;
+  settings.threads = own_.threads;
+  settings.steps = own_.steps && entry_->name != "cairn-pgs";
+  settings.acceleration = own_.acceleration ? Acceleration::kNncg : Acceleration::kNone;
   cli::RowLimit limit{.iterations = {}, .time = effort_.budget};
-  if (!limit.time) limit.iterations = lane_.iterations;
+  if (!limit.time) limit.iterations = own_.iterations;
   failure_ = recorded.Solve(*entry_, settings, limit);
   if (!failure_.empty()) return;
   if (measure_) residual_ = recorded.Residual();

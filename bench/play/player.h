@@ -31,11 +31,11 @@ struct Sample {
 class Player {
  public:
   /// @throws cli::Failure as MakeStage() does
-  Player(const Controls& controls, const LaneControls& lane);
+  Player(const Controls& controls, const PlayerControls& own);
   ~Player();
 
   /// Takes over what may change at any time.
-  void Apply(const Controls& controls, const LaneControls& lane);
+  void Apply(const Controls& controls, const PlayerControls& own);
   /// @param budget  [ns] for a solver with a clock; none: its iterations decide
   void Step(std::optional<std::chrono::nanoseconds> budget);
 
@@ -86,7 +86,7 @@ class Player {
   std::unique_ptr<Stage> stage_;
   btContactSolverInfo defaults_;
   cli::Effort effort_;
-  LaneControls lane_;
+  PlayerControls own_;
   int frame_ = 0, substeps_ = 1;
   bool measure_ = true, sleep_ = false, observing_ = false;
   double residual_ = 0;

@@ -19,8 +19,8 @@ Session::Session(const Controls& controls) : controls_(controls) { Restart(); }
 
 bool Session::Restart() {
   std::vector<std::unique_ptr<Player>> players;
-  for (int lane = 0; lane < controls_.worlds; ++lane) {
-    players.push_back(std::make_unique<Player>(controls_, controls_.lanes[lane]));
+  for (int side = 0; side < controls_.worlds; ++side) {
+    players.push_back(std::make_unique<Player>(controls_, controls_.players[side]));
   }
   players_ = std::move(players);
   ++generation_;
@@ -37,24 +37,24 @@ void Session::Apply() {
     Restart();
     controls_.scene = asked;
   }
-  for (int lane = 0; lane < worlds(); ++lane) {
-    players_[lane]->Apply(controls_, controls_.lanes[lane]);
+  for (int side = 0; side < worlds(); ++side) {
+    players_[side]->Apply(controls_, controls_.players[side]);
   }
 }
 
-std::optional<std::chrono::nanoseconds> Session::BudgetOf(int lane) const {
-  const LaneControls& controls = controls_.lanes[lane];
+std::optional<std::chrono::nanoseconds> Session::BudgetOf(int side) const {
+  const PlayerControls& controls = controls_.players[side];
   if (controls.budget == kFixed) return Nanoseconds(controls.budget_ms);
   if (controls.budget == kRest) return rest_;
   if (controls.budget != kMatch || worlds() < 2) return {};
-  const Player& other = *players_[1 - lane];
+  const Player& other = *players_[1 - side];
   if (other.history().empty()) return {};
   return std::max<std::chrono::nanoseconds>(kLeastMatch, Nanoseconds(other.MeanSolverTime()));
 }
 
 void Session::Step() {
   Apply();
-  for (int lane = 0; lane < worlds(); ++lane) players_[lane]->Step(BudgetOf(lane));
+  for (int side = 0; side < worlds(); ++side) players_[side]->Step(BudgetOf(side));
 }
 
 void Session::Shoot(const btVector3& from, const btVector3& direction) {

@@ -41,8 +41,8 @@ class Session {
   void Save(const std::string& path);
 
   int worlds() const { return static_cast<int>(players_.size()); }
-  Player& player(int lane) { return *players_[lane]; }
-  const Player& player(int lane) const { return *players_[lane]; }
+  Player& player(int side) { return *players_[side]; }
+  const Player& player(int side) const { return *players_[side]; }
   /// Changes when worlds have gone or come.
   int built() const { return generation_; }
   int frame() const { return players_.front()->frame(); }
@@ -50,7 +50,7 @@ class Session {
   void SetRest(std::chrono::nanoseconds rest) { rest_ = rest; }
 
  private:
-  std::optional<std::chrono::nanoseconds> BudgetOf(int lane) const;
+  std::optional<std::chrono::nanoseconds> BudgetOf(int side) const;
 
   Controls controls_;
   SceneControls built_;

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "run/lane.h"
+#include "run/solver_run.h"
 #include "support/failure.h"
 #include "support/progress.h"
 
@@ -33,23 +33,23 @@ std::string PathOf(const RecordOptions& options, const SceneChoice& scene, int f
 class RecordedScene {
  public:
   RecordedScene(const SceneChoice& scene, const RecordOptions& options)
-      : options_(options), scene_(scene), lane_(scene, options.run.solvers.front(), options.run) {}
+      : options_(options), scene_(scene), run_(scene, options.run.solvers.front(), options.run) {}
 
   void Step(int frame) {
     const bool wanted = options_.frames.Contains(frame);
     const std::string path = PathOf(options_, scene_, frame);
-    if (wanted) lane_.RecordNext(path, frame);
-    lane_.Step(Lane::Observing::kOff);
+    if (wanted) run_.RecordNext(path, frame);
+    run_.Step(SolverRun::Observing::kOff);
     if (wanted) Check(frame, path);
-    if (!lane_.failed()) return;
+    if (!run_.failed()) return;
     throw Failure(kCheckFailed, fmt::format("{}: {} failed in frame {}: {}", scene_.info->name,
-                                            lane_.label(), frame, lane_.failure()));
+                                            run_.label(), frame, run_.failure()));
   }
   std::vector<RecordedFrame> TakeFrames() { return std::move(frames_); }
 
  private:
   void Check(int frame, const std::string& path) {
-    const std::string fault = lane_.TakeRecording();
+    const std::string fault = run_.TakeRecording();
     if (fault.starts_with("cannot")) throw Failure(kBadInput, fault);
     if (!fault.empty()) {
       throw Failure(kBadInput, fmt::format("{}: {} in frame {}", scene_.info->name, fault, frame));
@@ -59,7 +59,7 @@ class RecordedScene {
 
   const RecordOptions& options_;
   SceneChoice scene_;
-  Lane lane_;
+  SolverRun run_;
   std::vector<RecordedFrame> frames_;
 };
 

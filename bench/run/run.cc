@@ -9,7 +9,7 @@
 
 #include "effort/error_sampler.h"
 #include "replay/sample_plan.h"
-#include "run/lane.h"
+#include "run/solver_run.h"
 #include "support/duration.h"
 #include "support/machine/metronome.h"
 
@@ -33,51 +33,50 @@ class SideBySide {
         plan_(options.samples, options.warmup, options.frames),
         metronome_(metronome) {
     for (const SolverChoice& solver : options.solvers) {
-      lanes_.push_back(std::make_unique<Lane>(scene, solver, options));
+      runs_.push_back(std::make_unique<SolverRun>(scene, solver, options));
     }
     result_.name = scene.info->name;
     result_.description = scene.info->description;
     result_.size = scene.size;
     result_.seed = options.seed;
-    result_.bodies = static_cast<int>(lanes_.front()->world().dynamic_bodies().size());
-    result_.joints = static_cast<int>(lanes_.front()->world().joints().size());
+    result_.bodies = static_cast<int>(runs_.front()->world().dynamic_bodies().size());
+    result_.joints = static_cast<int>(runs_.front()->world().joints().size());
     result_.warmup = options.warmup;
     result_.beats.emplace_back();
     result_.observed_every = result_.bodies > kManyBodies ? kSparse : 1;
-    result_.mass_ratio = MassRatio(lanes_.front()->world());
-    sampler_ = std::make_unique<ErrorSampler>(options.solvers, lanes_.front()->defaults());
+    result_.mass_ratio = MassRatio(runs_.front()->world());
+    sampler_ = std::make_unique<ErrorSampler>(options.solvers, runs_.front()->defaults());
     if (options.page) sampler_->AddLadders(options.solvers, LongestSubstep(options));
   }
 
   void Step(int frame) {
     if (plan_.IsSample(frame) || plan_.IsWarmUp(frame)) Probe(frame);
-    const auto observing =
-        frame % result_.observed_every == 0 ? Lane::Observing::kOn : Lane::Observing::kOff;
+    const auto observing = frame % result_.observed_every == 0 ? SolverRun::Observing::kOn
+                                                               : SolverRun::Observing::kOff;
     const bool disturbed = plan_.IsSample(frame) || plan_.IsWarmUp(frame);
-    for (const auto& lane : lanes_) {
-      lane->Step(observing);
-      if (!disturbed || options_.trace_frame) lane->KeepTimeline(options_.trace_frame);
+    for (const auto& run : runs_) {
+      run->Step(observing);
+      if (!disturbed || options_.trace_frame) run->KeepTimeline(options_.trace_frame);
     }
     result_.beats.front().push_back(metronome_->Strike());
   }
 
   bool AllFailed() const {
-    return std::all_of(lanes_.begin(), lanes_.end(),
-                       [](const auto& lane) { return lane->failed(); });
+    return std::all_of(runs_.begin(), runs_.end(), [](const auto& run) { return run->failed(); });
   }
 
   SceneResult Finish() {
     if (options_.page) FindScaling();
-    result_.bullet_has_zones = lanes_.front()->bullet_has_zones();
-    for (const auto& lane : lanes_) result_.solvers.push_back(lane->Finish());
+    result_.bullet_has_zones = runs_.front()->bullet_has_zones();
+    for (const auto& run : runs_) result_.solvers.push_back(run->Finish());
     return std::move(result_);
   }
 
  private:
   void FindScaling() {
-    for (const auto& lane : lanes_) {
-      if (lane->cairn() == nullptr || lane->failed()) continue;
-      const ContactProblem problem = lane->cairn()->problem();
+    for (const auto& run : runs_) {
+      if (run->cairn() == nullptr || run->failed()) continue;
+      const ContactProblem problem = run->cairn()->problem();
       Scaling scaling = MeasureScaling(problem);
       if (scaling.rows > 0) result_.scaling = std::move(scaling);
       return;
@@ -85,11 +84,11 @@ class SideBySide {
   }
 
   void Probe(int frame) {
-    const auto source = std::find_if(lanes_.begin(), lanes_.end(),
-                                     [](const auto& lane) { return !lane->failed(); });
-    if (source == lanes_.end()) return;
+    const auto source =
+        std::find_if(runs_.begin(), runs_.end(), [](const auto& run) { return !run->failed(); });
+    if (source == runs_.end()) return;
     std::vector<Effort> efforts;
-    for (const auto& lane : lanes_) efforts.push_back(lane->effort());
+    for (const auto& run : runs_) efforts.push_back(run->effort());
     if (plan_.IsWarmUp(frame)) {
       (*source)->ProbeNext([this, efforts](bench::Substep* substep, const btContactSolverInfo&) {
         sampler_->WarmUp(substep, efforts);
@@ -99,9 +98,9 @@ class SideBySide {
     (*source)->ProbeNext([this, efforts, frame, label = (*source)->label()](
                              bench::Substep* substep, const btContactSolverInfo&) {
       const ErrorSampler::Errors errors = sampler_->Measure(substep, efforts);
-      for (size_t i = 0; i < lanes_.size(); ++i) {
-        lanes_[i]->AddError(errors.of_solvers[i]);
-        if (!errors.curves.empty()) lanes_[i]->AddCurve(errors.curves[i]);
+      for (size_t i = 0; i < runs_.size(); ++i) {
+        runs_[i]->AddError(errors.of_solvers[i]);
+        if (!errors.curves.empty()) runs_[i]->AddCurve(errors.curves[i]);
       }
       result_.samples.push_back(
           {.frame = frame, .source = label, .reference_residual = errors.reference_residual});
@@ -111,7 +110,7 @@ class SideBySide {
   const RunOptions& options_;
   SamplePlan plan_;
   Metronome* metronome_;
-  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::vector<std::unique_ptr<SolverRun>> runs_;
   std::unique_ptr<ErrorSampler> sampler_;
   SceneResult result_;
 };

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "replay/sample_plan.h"
-#include "run/lane.h"
+#include "run/solver_run.h"
 #include "scenes/facts.h"
 #include "small/same_states.h"
 #include "support/machine/cold_caches.h"
@@ -21,34 +21,34 @@ namespace cairn::cli {
 namespace {
 
 /// A world for each solver.
-class Lanes {
+class SolverRuns {
  public:
-  explicit Lanes(const SceneChoice& scene, const Setup& setup) {
+  explicit SolverRuns(const SceneChoice& scene, const Setup& setup) {
     const RunOptions plain;
     for (SolverChoice solver : SmallSolvers()) {
       solver.threads = setup.threads;
-      lanes_.push_back(std::make_unique<Lane>(scene, solver, plain));
+      runs_.push_back(std::make_unique<SolverRun>(scene, solver, plain));
     }
   }
 
   /// @param caches  emptied before each step, unless there are none
   void Step(int frame, ColdCaches* caches) {
-    for (size_t k = 0; k < lanes_.size(); ++k) {
+    for (size_t k = 0; k < runs_.size(); ++k) {
       // in turn, so that none always follows the same other one
-      Lane& lane = *lanes_[(k + static_cast<size_t>(frame)) % lanes_.size()];
+      SolverRun& run = *runs_[(k + static_cast<size_t>(frame)) % runs_.size()];
       if (caches != nullptr) caches->Empty();
       const ThreadStopwatch stopwatch;
-      lane.Step(Lane::Observing::kOff);
-      preempted_[&lane].push_back(stopwatch.Read().preempted);
+      run.Step(SolverRun::Observing::kOff);
+      preempted_[&run].push_back(stopwatch.Read().preempted);
     }
   }
 
-  const bench::World& world() const { return lanes_.front()->world(); }
+  const bench::World& world() const { return runs_.front()->world(); }
 
   /// Median time of the frames that count [us]. Once for each solver.
   double Finish(size_t solver, int warmup, std::optional<SolverFailure>* failure) {
-    const std::vector<bool>& preempted = preempted_[lanes_[solver].get()];
-    const SolverResult result = lanes_[solver]->Finish();
+    const std::vector<bool>& preempted = preempted_[runs_[solver].get()];
+    const SolverResult result = runs_[solver]->Finish();
     if (result.failure) {
       if (!*failure) *failure = result.failure;
       return kNotMeasured;
@@ -61,8 +61,8 @@ class Lanes {
   }
 
  private:
-  std::vector<std::unique_ptr<Lane>> lanes_;
-  std::map<const Lane*, std::vector<bool>> preempted_;  ///< In each frame.
+  std::vector<std::unique_ptr<SolverRun>> runs_;
+  std::map<const SolverRun*, std::vector<bool>> preempted_;  ///< In each frame.
 };
 
 class SmallRun {
@@ -85,19 +85,19 @@ class SmallRun {
  private:
   void Time(const SceneChoice& scene, ColdCaches* caches, double SmallSolver::*time,
             SmallResult* result) {
-    Lanes lanes(scene, options_.setup);
-    result->bodies = static_cast<int>(lanes.world().dynamic_bodies().size());
-    result->joints = static_cast<int>(lanes.world().joints().size());
+    SolverRuns runs(scene, options_.setup);
+    result->bodies = static_cast<int>(runs.world().dynamic_bodies().size());
+    result->joints = static_cast<int>(runs.world().joints().size());
     std::vector<double> points;
     for (int frame = 0; frame < options_.frames; ++frame) {
       Show(scene, caches == nullptr ? "hot" : "cold", frame);
-      lanes.Step(frame, caches);
-      if (frame >= options_.warmup) points.push_back(bench::ContactPoints(lanes.world()));
+      runs.Step(frame, caches);
+      if (frame >= options_.warmup) points.push_back(bench::ContactPoints(runs.world()));
     }
     result->points = Median(points);
     for (size_t i = 0; i < result->solvers.size(); ++i) {
       SmallSolver& solver = result->solvers[i];
-      solver.*time = lanes.Finish(i, options_.warmup, &solver.failure);
+      solver.*time = runs.Finish(i, options_.warmup, &solver.failure);
     }
   }
 

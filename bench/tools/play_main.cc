@@ -35,18 +35,18 @@ void SetSolvers(const Words& words, Controls* controls) {
   if (choices.size() > 2) throw Failure(kUsage, "--solver: two worlds at most");
   controls->worlds = static_cast<int>(choices.size());
   for (size_t i = 0; i < choices.size(); ++i) {
-    LaneControls& lane = controls->lanes[i];
-    lane = {.solver = choices[i].entry->name};
+    PlayerControls& player = controls->players[i];
+    player = {.solver = choices[i].entry->name};
     const cli::IterationRule rule = choices[i].own_iterations.value_or(
         words.iterations.empty() ? cli::IterationRule{}
                                  : cli::ParseIterations("--iterations", words.iterations));
     if (rule.kind == cli::IterationRule::Kind::kFit) {
       throw Failure(kUsage, "iterations that fit a budget are for cairn run");
     }
-    lane.iterations = rule.count;
+    player.iterations = rule.count;
     if (words.budget.empty() || choices[i].own_iterations) continue;
-    lane.budget = kFixed;
-    lane.budget_ms = cli::Milliseconds(cli::ParseDuration("--budget", words.budget));
+    player.budget = kFixed;
+    player.budget_ms = cli::Milliseconds(cli::ParseDuration("--budget", words.budget));
   }
 }
 

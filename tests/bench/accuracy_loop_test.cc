@@ -32,8 +32,8 @@ TEST(Loop, StopsAfterARunAndKeepsWhatIsDone) {
   ASSERT_EQ(three.size(), 2u);
   EXPECT_EQ(three[0].seeds(), 2);
   EXPECT_EQ(three[1].seeds(), 1);
-  EXPECT_EQ(three[0].Of(0, Kind::kSteps).solver, "steps");
-  EXPECT_EQ(three[0].bullet().solver, "bullet-si");
+  EXPECT_EQ(three[0].Of(0, Kind::kSteps).name, "steps");
+  EXPECT_EQ(three[0].bullet().name, "bullet-si");
   EXPECT_EQ(loops(1).size(), 1u);
   EXPECT_EQ(loops(100)[1].seeds(), 3);
   EXPECT_EQ(runs, 6);

@@ -85,10 +85,10 @@ TEST(Import, PlaysBesideItself) {
   for (int i = 0; i < 30; ++i) session.Step();
   session.Restart();
   for (int i = 0; i < 30; ++i) session.Step();
-  for (const int lane : {0, 1}) {
-    EXPECT_EQ(session.player(lane).failure(), "");
-    EXPECT_EQ(session.player(lane).world().joints().size(), saved.joints().size());
-    EXPECT_GT(bench::ContactPoints(session.player(lane).world()), 0);
+  for (const int side : {0, 1}) {
+    EXPECT_EQ(session.player(side).failure(), "");
+    EXPECT_EQ(session.player(side).world().joints().size(), saved.joints().size());
+    EXPECT_GT(bench::ContactPoints(session.player(side).world()), 0);
   }
 }
 

@@ -32,7 +32,7 @@ struct Program {
 
 struct OneRun {
   Repetitions times, arithmetic, memory;
-  MeasuredLane lane() const { return {times, arithmetic, memory}; }
+  MeasuredSolver solver() const { return {times, arithmetic, memory}; }
 };
 
 class Machine {
@@ -77,7 +77,7 @@ Ratio CompareRuns(unsigned seed, const Program& before, const Weather& weather_b
   Machine machine(seed);
   const OneRun first = machine.Measure(before, weather_before);
   const OneRun second = machine.Measure(after, weather_after);
-  return CompareTimes(first.lane(), second.lane());
+  return CompareTimes(first.solver(), second.solver());
 }
 
 int CountRegressions(const Program& before, const Weather& weather_before, const Program& after,
@@ -140,13 +140,13 @@ TEST(TimeRatio, MemoryThatOthersUseExplainsWhatItMay) {
 TEST(TimeRatio, ShortTimesHaveWideIntervals) {
   Machine machine(1);
   OneRun first = machine.Measure({}, {}), second = machine.Measure({}, {});
-  const Ratio usual = CompareTimes(first.lane(), second.lane());
+  const Ratio usual = CompareTimes(first.solver(), second.solver());
   for (Repetitions* series : {&first.times, &second.times}) {
     for (auto& values : *series) {
       for (double& value : values) value *= 0.01;
     }
   }
-  const Ratio tiny = CompareTimes(first.lane(), second.lane());
+  const Ratio tiny = CompareTimes(first.solver(), second.solver());
   EXPECT_DOUBLE_EQ(tiny.value, usual.value);
   EXPECT_GT(tiny.high - tiny.low, usual.high - usual.low + 0.1);
 }

@@ -10,7 +10,7 @@
 
 #include "contestants/cairn_contestants.h"
 #include "contestants/solver_registry.h"
-#include "run/lane.h"
+#include "run/solver_run.h"
 #include "support/statistics.h"
 
 namespace cairn::accuracy {
@@ -21,27 +21,27 @@ class Runner {
  public:
   Runner(const cli::SceneChoice& scene, const cli::SolverChoice& solver,
          const cli::RunOptions& options)
-      : lane_(scene, solver, options), frames_(options.frames) {}
+      : run_(scene, solver, options), frames_(options.frames) {}
 
   void Step(int frame) {
     const bool counts = frame >= frames_ / 2;
-    lane_.Step(counts ? cli::Lane::Observing::kOn : cli::Lane::Observing::kOff);
-    if (!counts || lane_.failed()) return;
-    const bench::SceneFacts facts = lane_.scene().Measure(lane_.world());
+    run_.Step(counts ? cli::SolverRun::Observing::kOn : cli::SolverRun::Observing::kOff);
+    if (!counts || run_.failed()) return;
+    const bench::SceneFacts facts = run_.scene().Measure(run_.world());
     height_.push_back(facts.height_lost_m);
     gap_.push_back(facts.joint_gap_m);
     penetration_.push_back(facts.penetration_m);
     speed_.push_back(facts.speed_at_rest_m_s);
   }
 
-  void Finish(LoopLane* lane) {
-    const cli::SolverResult result = lane_.Finish();
-    lane->solver = result.label;
-    lane->effort = result.effort;
-    lane->runs.push_back(result.failure ? Failed() : Figures(result));
-    lane->can_fall = lane->can_fall || result.standing.has_value();
-    if (result.failure) lane->failures.push_back(result.failure->reason);
-    if (result.failure || !result.standing.value_or(true)) ++lane->collapsed;
+  void Finish(LoopSolver* solver) {
+    const cli::SolverResult result = run_.Finish();
+    solver->name = result.label;
+    solver->effort = result.effort;
+    solver->runs.push_back(result.failure ? Failed() : Figures(result));
+    solver->can_fall = solver->can_fall || result.standing.has_value();
+    if (result.failure) solver->failures.push_back(result.failure->reason);
+    if (result.failure || !result.standing.value_or(true)) ++solver->collapsed;
   }
 
  private:
@@ -70,7 +70,7 @@ class Runner {
             .restored = cli::Mean(restored)};
   }
 
-  cli::Lane lane_;
+  cli::SolverRun run_;
   int frames_;
   std::vector<double> height_, gap_, penetration_, speed_;
 };
@@ -130,7 +130,7 @@ void RunSeed(int seed, const std::vector<Entry>& entries,
     show(frame);
     for (const auto& runner : runners) runner->Step(frame);
   }
-  for (size_t i = 0; i < runners.size(); ++i) runners[i]->Finish(&scene->lanes[i]);
+  for (size_t i = 0; i < runners.size(); ++i) runners[i]->Finish(&scene->solvers[i]);
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ std::vector<LoopScene> RunLoops(const LoopOptions& options,
   const std::vector<Entry> entries = EntriesOf(options);
   std::vector<LoopScene> scenes;
   for (const cli::SceneChoice& scene : options.scenes) {
-    scenes.push_back({.scene = scene, .lanes = std::vector<LoopLane>(entries.size())});
+    scenes.push_back({.scene = scene, .solvers = std::vector<LoopSolver>(entries.size())});
   }
   const auto begin = std::chrono::steady_clock::now();
   const size_t runs = scenes.size() * static_cast<size_t>(options.seeds);

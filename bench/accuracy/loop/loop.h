@@ -48,8 +48,8 @@ inline constexpr std::array kLoopFigures = {
     LoopFigure{"restored", "/frame", "steps_restored", &LoopFigures::restored, 1}};
 
 /// One solver on one scene, all seeds.
-struct LoopLane {
-  std::string solver, effort;
+struct LoopSolver {
+  std::string name, effort;
   std::vector<LoopFigures> runs;  ///< One per seed, from seed 1 on.
   int collapsed = 0;              ///< Runs in which it fell, or in which the solver failed.
   std::vector<std::string> failures;
@@ -59,13 +59,13 @@ struct LoopLane {
 struct LoopScene {
   cli::SceneChoice scene;
   /// For each budget Cairn as each of kKinds, in this order; last Bullet.
-  std::vector<LoopLane> lanes;
+  std::vector<LoopSolver> solvers;
 
-  const LoopLane& Of(size_t budget, Kind kind) const {
-    return lanes[budget * kKinds.size() + static_cast<size_t>(kind)];
+  const LoopSolver& Of(size_t budget, Kind kind) const {
+    return solvers[budget * kKinds.size() + static_cast<size_t>(kind)];
   }
-  const LoopLane& bullet() const { return lanes.back(); }
-  int seeds() const { return static_cast<int>(lanes.back().runs.size()); }  ///< Done.
+  const LoopSolver& bullet() const { return solvers.back(); }
+  int seeds() const { return static_cast<int>(solvers.back().runs.size()); }  ///< Done.
 };
 
 /// Every scene with the first seed, then with the second: what is done when it is stopped can be

@@ -19,16 +19,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<double> Values(const LoopLane& lane, const LoopFigure& figure) {
+std::vector<double> Values(const LoopSolver& solver, const LoopFigure& figure) {
   std::vector<double> values;
-  for (const LoopFigures& run : lane.runs) values.push_back(run.*figure.value);
+  for (const LoopFigures& run : solver.runs) values.push_back(run.*figure.value);
   return values;
 }
 
 /// What a scene is judged by: the first figure that applies to it.
 const LoopFigure& MainFigure(const LoopScene& scene) {
   return *std::find_if(kLoopFigures.begin(), kLoopFigures.end(), [&](const LoopFigure& figure) {
-    return !std::isnan(cli::Median(Values(scene.lanes.back(), figure)));
+    return !std::isnan(cli::Median(Values(scene.solvers.back(), figure)));
   });
 }
 
@@ -38,37 +38,38 @@ void PrintScene(const LoopScene& scene) {
     columns.push_back(fmt::format("{} {}", figure.name, figure.unit));
   }
   cli::TextTable table = cli::TableOf(columns);
-  for (const LoopLane& lane : scene.lanes) {
-    const bool falls = lane.can_fall || lane.collapsed > 0;
+  for (const LoopSolver& solver : scene.solvers) {
+    const bool falls = solver.can_fall || solver.collapsed > 0;
     std::vector<std::string> cells = {
-        lane.solver, lane.effort,
-        falls ? fmt::format("{}/{}", lane.collapsed, lane.runs.size()) : "-"};
+        solver.name, solver.effort,
+        falls ? fmt::format("{}/{}", solver.collapsed, solver.runs.size()) : "-"};
     for (const LoopFigure& figure : kLoopFigures) {
-      cells.push_back(Digits(cli::Median(Values(lane, figure)) * figure.scale));
+      cells.push_back(Digits(cli::Median(Values(solver, figure)) * figure.scale));
     }
     table.rows.push_back(cells);
   }
   fmt::print("\n## {} (judged by {}), {} seeds\n\n{}\n", scene.scene.info->name,
              MainFigure(scene).name, scene.seeds(), table.ToMarkdown());
-  for (const LoopLane& lane : scene.lanes) {
-    for (const std::string& failure : lane.failures) {
-      fmt::print("- {}, {}: {}\n", lane.solver, lane.effort, failure);
+  for (const LoopSolver& solver : scene.solvers) {
+    for (const std::string& failure : solver.failures) {
+      fmt::print("- {}, {}: {}\n", solver.name, solver.effort, failure);
     }
   }
 }
 
-Json ToJson(const LoopLane& lane) {
+Json ToJson(const LoopSolver& solver) {
   Json figures = Json::object(), failed = Json::array();
   for (const LoopFigure& figure : kLoopFigures) {
     Json runs = Json::array();
-    for (const double value : Values(lane, figure)) runs.push_back(cli::Number(value));
+    for (const double value : Values(solver, figure)) runs.push_back(cli::Number(value));
     figures[figure.key] = {{"runs", runs}};
   }
-  for (size_t i = 0; i < lane.runs.size(); ++i) {
-    if (std::isinf(lane.runs[i].time)) failed.push_back(i + 1);
+  for (size_t i = 0; i < solver.runs.size(); ++i) {
+    if (std::isinf(solver.runs[i].time)) failed.push_back(i + 1);
   }
-  return {{"solver", lane.solver},       {"effort", lane.effort},     {"can_fall", lane.can_fall},
-          {"collapsed", lane.collapsed}, {"failures", lane.failures}, {"failed_seeds", failed},
+  return {{"solver", solver.name},       {"effort", solver.effort},
+          {"can_fall", solver.can_fall}, {"collapsed", solver.collapsed},
+          {"failures", solver.failures}, {"failed_seeds", failed},
           {"figures", figures}};
 }
 
@@ -97,12 +98,12 @@ void PrintLoop(std::span<const LoopScene> scenes, const LoopOptions& options) {
 Json ToJson(std::span<const LoopScene> scenes, const LoopOptions& options) {
   Json list = Json::array(), budgets = Json::array();
   for (const LoopScene& scene : scenes) {
-    Json lanes = Json::array();
-    for (const LoopLane& lane : scene.lanes) lanes.push_back(ToJson(lane));
+    Json solvers = Json::array();
+    for (const LoopSolver& solver : scene.solvers) solvers.push_back(ToJson(solver));
     list.push_back({{"scene", scene.scene.info->name},
                     {"size", scene.scene.size},
                     {"judged_by", MainFigure(scene).key},
-                    {"solvers", lanes}});
+                    {"solvers", solvers}});
   }
   for (const auto budget : options.budgets) budgets.push_back(cli::Milliseconds(budget));
   return {{"frames", options.frames},

@@ -199,7 +199,7 @@ export function timeline(host, scene) {
   select.value = ours ?? shown[0];
   const whole = element("button", { type: "button", textContent: "Whole frame" });
   const facts = element("span", { className: "soft" }), note = element("p", { className: "plot-note" });
-  const canvas = element("canvas", { className: "lanes" }), keys = element("div", { className: "legend" });
+  const canvas = element("canvas", { className: "threads" }), keys = element("div", { className: "legend" });
   canvas.setAttribute("aria-label", "Timeline of the slowest frame");
   host.append(element("div", { className: "controls" }, select, whole, facts), canvas, note, keys);
   let picture = null, width = 0;

@@ -134,21 +134,21 @@ void App::AddKeys(Requests* requests) {
   }
 }
 
-int App::LaneUnderMouse() const {
+int App::SideUnderMouse() const {
   const ImGuiIO& io = ImGui::GetIO();
   const float y = static_cast<float>(options_.height) - io.MousePos.y;
-  for (int lane = 0; lane < session_.worlds() && !io.WantCaptureMouse; ++lane) {
-    const Area& area = areas_[std::min<size_t>(lane, areas_.size() - 1)];
+  for (int side = 0; side < session_.worlds() && !io.WantCaptureMouse; ++side) {
+    const Area& area = areas_[std::min<size_t>(side, areas_.size() - 1)];
     if (io.MousePos.x >= area.x && io.MousePos.x < area.x + area.width && y >= area.y &&
         y < area.y + area.height) {
-      return lane;
+      return side;
     }
   }
   return -1;
 }
 
-btVector3 App::RayUnderMouse(int lane) const {
-  const Area& area = areas_[lane];
+btVector3 App::RayUnderMouse(int side) const {
+  const Area& area = areas_[side];
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const float x = (mouse.x - area.x) / area.width;
   const float y = (options_.height - mouse.y - area.y) / area.height;
@@ -157,15 +157,15 @@ btVector3 App::RayUnderMouse(int lane) const {
 
 void App::Hover() {
   facts_.body = -1;
-  facts_.lane = LaneUnderMouse();
-  if (facts_.lane < 0) return;
+  facts_.side = SideUnderMouse();
+  if (facts_.side < 0) return;
   const btVector3 eye = ToBullet(camera_.eye());
   btVector3 at;
   facts_.body =
-      session_.player(facts_.lane).Pick(eye, eye + 1000 * RayUnderMouse(facts_.lane), &at);
+      session_.player(facts_.side).Pick(eye, eye + 1000 * RayUnderMouse(facts_.side), &at);
   if (facts_.body < 0) {
-    facts_.lane = -1;
-  } else if (ImGui::IsMouseClicked(0) && !session_.player(facts_.lane).stage().recorded()) {
+    facts_.side = -1;
+  } else if (ImGui::IsMouseClicked(0) && !session_.player(facts_.side).stage().recorded()) {
     session_.Grab(facts_.body, at);
     grip_ = static_cast<float>((at - eye).length());
   }
@@ -177,14 +177,14 @@ void App::DragOrTurn() {
     session_.Release();
     grip_.reset();
   }
-  const int lane = LaneUnderMouse();
-  if (lane < 0) return;
+  const int side = SideUnderMouse();
+  if (side < 0) return;
   if (grip_) {
-    session_.Move(ToBullet(camera_.eye()) + *grip_ * RayUnderMouse(lane));
+    session_.Move(ToBullet(camera_.eye()) + *grip_ * RayUnderMouse(side));
   } else if (io.MouseDown[0] || io.MouseDown[1]) {
     camera_.Orbit(io.MouseDelta.x, io.MouseDelta.y);
   } else if (io.MouseDown[2]) {
-    camera_.Pan(io.MouseDelta.x, io.MouseDelta.y, static_cast<float>(areas_[lane].height));
+    camera_.Pan(io.MouseDelta.x, io.MouseDelta.y, static_cast<float>(areas_[side].height));
   }
   camera_.Zoom(io.MouseWheel);
 }
@@ -196,9 +196,9 @@ void App::Obey(const Requests& requests) {
   if (another || requests.contains("view"))
     camera_.Fit(session_.player(0).world(), areas_[0].aspect());
   if (requests.contains("shoot")) {
-    const int lane = LaneUnderMouse();
+    const int side = SideUnderMouse();
     const btVector3 eye = ToBullet(camera_.eye());
-    session_.Shoot(eye, lane < 0 ? ToBullet(camera_.target) - eye : RayUnderMouse(lane));
+    session_.Shoot(eye, side < 0 ? ToBullet(camera_.target) - eye : RayUnderMouse(side));
   }
   const bool save = requests.contains("save");
   if (save) session_.Save(fmt::format("frame-{:06}.cairn", session_.frame()));
@@ -219,8 +219,8 @@ double App::Steps(double passed) {
   double solver_time = 0;
   for (int i = 0; i < plan.steps; ++i) {
     session_.Step();
-    for (int lane = 0; lane < session_.worlds(); ++lane) {
-      const auto& history = session_.player(lane).history();
+    for (int side = 0; side < session_.worlds(); ++side) {
+      const auto& history = session_.player(side).history();
       if (!history.empty()) solver_time += 1e-3 * history.back().solver_ms;
     }
   }
@@ -232,11 +232,11 @@ void App::DrawWorlds() {
   if (std::exchange(built_, session_.built()) != session_.built()) renderer_->Forget();
   renderer_->Begin(options_.width, options_.height, controls.smooth ? 4 : 1);
   areas_ = Panels::Areas(controls, options_.width, options_.height);
-  for (int lane = 0; lane < session_.worlds(); ++lane) {
-    renderer_->Draw(session_.player(lane), camera_,
+  for (int side = 0; side < session_.worlds(); ++side) {
+    renderer_->Draw(session_.player(side), camera_,
                     {controls.colours, controls.shadows, controls.contacts, controls.joints,
                      btScalar(share_), facts_.body},
-                    areas_[lane]);
+                    areas_[side]);
   }
 }
 

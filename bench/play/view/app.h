@@ -55,8 +55,8 @@ class App {
   std::string State();
 
   /// From the eye through the mouse, in the world that it is over; -1: in none.
-  int LaneUnderMouse() const;
-  btVector3 RayUnderMouse(int lane) const;
+  int SideUnderMouse() const;
+  btVector3 RayUnderMouse(int side) const;
 
   AppOptions options_;
   Session session_;

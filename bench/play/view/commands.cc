@@ -55,8 +55,8 @@ std::string App::State() {
   for (const Field& field : Fields(&session_.controls())) {
     std::visit([&](const auto* value) { state["controls"][field.name] = *value; }, field.value);
   }
-  for (int lane = 0; lane < session_.worlds(); ++lane) {
-    state["worlds"].push_back(Applied(session_.player(lane)));
+  for (int side = 0; side < session_.worlds(); ++side) {
+    state["worlds"].push_back(Applied(session_.player(side)));
   }
   for (const auto& [name, place] : panels_->widgets()) state["widgets"].push_back(name);
   state["camera"] = {camera_.yaw, camera_.pitch, camera_.distance};
@@ -65,7 +65,7 @@ std::string App::State() {
                       {"draw_ms", facts_.draw_ms},
                       {"bodies", renderer_->bodies_drawn()},
                       {"draw_calls", renderer_->calls()}};
-  state["hovered"] = {{"world", facts_.lane}, {"body", facts_.body}};
+  state["hovered"] = {{"world", facts_.side}, {"body", facts_.body}};
   state["message"] = facts_.message;
   return state.dump(1) + "\n";
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kSide = 292, kStrip = 158;  // [pixels] of the panels on the left and below
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr ImU32 kLaneColours[] = {IM_COL32(255, 166, 77, 255), IM_COL32(90, 200, 250, 255)};
+constexpr ImU32 kSideColours[] = {IM_COL32(255, 166, 77, 255), IM_COL32(90, 200, 250, 255)};
 constexpr const char* kSides[] = {"left", "right"};
 constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoTitleBar |
@@ -50,8 +50,8 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, IM_COL32(255, 255, 255, 12), 4);
   double low = 0, high = 0;
-  for (int lane = 0; lane < session.worlds(); ++lane) {
-    for (const Sample& sample : session.player(lane).history()) {
+  for (int side = 0; side < session.worlds(); ++side) {
+    for (const Sample& sample : session.player(side).history()) {
       low = std::min(low, plot.value(sample));
       high = std::max(high, plot.value(sample));
     }
@@ -60,8 +60,8 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
   list.PushClipRect(at, {at.x + size.x, at.y + size.y});
   float right = at.x + size.x - 6;
   const float row = size.x < 190 ? 15 : 0;  // of numbers: below the title where it is narrow
-  for (int lane = session.worlds() - 1; lane >= 0; --lane) {
-    const auto& history = session.player(lane).history();
+  for (int side = session.worlds() - 1; side >= 0; --side) {
+    const auto& history = session.player(side).history();
     std::vector<ImVec2> points;
     for (size_t i = 0; i < history.size(); ++i) {
       const double share = (plot.value(history[i]) - low) / (high - low);
@@ -69,11 +69,11 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
       points.push_back({at.x + size.x * static_cast<float>(i) / Player::kMostHistory,
                         at.y + size.y - 3 - (size.y - 22 - row) * static_cast<float>(share)});
     }
-    list.AddPolyline(points.data(), static_cast<int>(points.size()), kLaneColours[lane], 0, 1.6f);
+    list.AddPolyline(points.data(), static_cast<int>(points.size()), kSideColours[side], 0, 1.6f);
     if (history.empty()) continue;
     const std::string text = Short(plot.value(history.back()));
     right -= ImGui::CalcTextSize(text.c_str()).x;
-    list.AddText({right, at.y + 3 + row}, kLaneColours[lane], text.c_str());
+    list.AddText({right, at.y + 3 + row}, kSideColours[side], text.c_str());
     right -= 8;
   }
   list.AddText({at.x + 6, at.y + 3}, IM_COL32(200, 204, 210, 255), plot.title);
@@ -81,13 +81,15 @@ void DrawPlot(const Session& session, const Plot& plot, const ImVec2& size) {
   ImGui::Dummy(size);
 }
 
-std::string TitleOf(Player& player, const LaneControls& lane) {
-  if (lane.budget != kNoBudget && player.cairn() != nullptr) {
-    if (lane.budget == kFixed) return fmt::format("{}, {:.3g} ms", lane.solver, lane.budget_ms);
-    return lane.solver + (lane.budget == kMatch ? ", in the other's time" : ", what is left");
+std::string TitleOf(Player& player, const PlayerControls& controls) {
+  if (controls.budget != kNoBudget && player.cairn() != nullptr) {
+    if (controls.budget == kFixed)
+      return fmt::format("{}, {:.3g} ms", controls.solver, controls.budget_ms);
+    return controls.solver +
+           (controls.budget == kMatch ? ", in the other's time" : ", what is left");
   }
-  if (player.solver().control == cli::Control::kNone) return lane.solver;
-  return fmt::format("{}, {} iterations", lane.solver, lane.iterations);
+  if (player.solver().control == cli::Control::kNone) return controls.solver;
+  return fmt::format("{}, {} iterations", controls.solver, controls.iterations);
 }
 
 /// The island of a body.
@@ -228,26 +230,26 @@ void Panels::DrawScene(Controls* controls) {
   ImGui::PopItemWidth();
 }
 
-void Panels::DrawLane(int lane, Controls* controls) {
-  const std::string side = kSides[lane];
+void Panels::DrawSide(int side, Controls* controls) {
+  const std::string prefix = kSides[side];
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLaneColours[lane]), "%s", side.c_str());
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kSideColours[side]), "%s", prefix.c_str());
   ImGui::PushItemWidth(-1);
   for (const Preset& preset : Presets()) {
-    const std::string name = fmt::format("{}.preset.{}", side, preset.name);
+    const std::string name = fmt::format("{}.preset.{}", prefix, preset.name);
     if (Button(std::string(preset.title).c_str(), name, -1)) {
-      UsePreset(preset.name, lane, controls);
+      UsePreset(preset.name, side, controls);
     }
   }
-  Control(side + ".solver", nullptr);
+  Control(prefix + ".solver", nullptr);
   ImGui::PopItemWidth();
   ImGui::PushItemWidth(60);
   for (const char* const name : {".iterations", ".budget", ".budget_ms", ".threads"}) {
-    Control(side + name);
+    Control(prefix + name);
   }
   ImGui::PopItemWidth();
-  Control(side + ".steps");
-  Control(side + ".acceleration");
+  Control(prefix + ".steps");
+  Control(prefix + ".acceleration");
 }
 
 void Panels::DrawSidebar(Session* session, const Facts& facts, int height) {
@@ -281,10 +283,10 @@ void Panels::DrawSidebar(Session* session, const Facts& facts, int height) {
     Control(checks[i]);
   }
   ImGui::Separator();
-  if (ImGui::BeginTable("lanes", 2)) {
-    for (int lane = 0; lane < controls.worlds; ++lane) {
+  if (ImGui::BeginTable("sides", 2)) {
+    for (int side = 0; side < controls.worlds; ++side) {
       ImGui::TableNextColumn();
-      DrawLane(lane, &controls);
+      DrawSide(side, &controls);
     }
     ImGui::EndTable();
   }
@@ -308,20 +310,20 @@ void Panels::DrawPlots(const Session& session, int width, int height) {
   ImGui::End();
 }
 
-void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Area& area,
+void Panels::DrawLabel(Session* session, int side, const Facts& facts, const Area& area,
                        int height) {
-  Player& player = session->player(lane);
+  Player& player = session->player(side);
   const float top = static_cast<float>(height - area.y - area.height);
   ImGui::SetNextWindowPos({static_cast<float>(area.x) + 10, top + 10});
   ImGui::SetNextWindowBgAlpha(0.72f);
   const float width = std::min(330.0f, static_cast<float>(area.width) - 20);
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, 1000});
-  ImGui::Begin(kSides[lane], nullptr,
+  ImGui::Begin(kSides[side], nullptr,
                kFixedWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   ImGui::PushTextWrapPos(width - 8);
   ImGui::PushFont(large_);
-  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kLaneColours[lane]), "%s",
-                     TitleOf(player, session->controls().lanes[lane]).c_str());
+  ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(kSideColours[side]), "%s",
+                     TitleOf(player, session->controls().players[side]).c_str());
   ImGui::PopFont();
   if (!player.history().empty()) {
     const Sample& last = player.history().back();
@@ -339,7 +341,7 @@ void Panels::DrawLabel(Session* session, int lane, const Facts& facts, const Are
                 recorded->problem().rows.rows.size(), frame.source.c_str());
   }
   if (!player.failure().empty()) ImGui::Text("stopped: %s", player.failure().c_str());
-  if (facts.lane == lane) {
+  if (facts.side == side) {
     ImGui::Separator();
     ImGui::TextUnformatted(DescribeIsland(&player, facts.body).c_str());
   }
@@ -353,8 +355,8 @@ Requests Panels::Draw(Session* session, const Facts& facts, int width, int heigh
   fields_.clear();
   for (Field& field : Fields(&session->controls())) fields_.emplace(field.name, field);
   const std::vector<Area> areas = Areas(session->controls(), width, height);
-  for (int lane = 0; lane < std::min(session->worlds(), session->controls().worlds); ++lane) {
-    DrawLabel(session, lane, facts, areas[lane], height);
+  for (int side = 0; side < std::min(session->worlds(), session->controls().worlds); ++side) {
+    DrawLabel(session, side, facts, areas[side], height);
   }
   if (!ArePanelsShown(session->controls(), width, height)) return requests_;
   DrawPlots(*session, width, height);

@@ -30,7 +30,7 @@ using Requests = std::set<std::string_view>;  ///< By name.
 struct Facts {
   double picture_ms = 0, draw_ms = 0;  ///< Means: from picture to picture, and drawing in it.
   std::string message;                 ///< What went wrong, or was saved.
-  int lane = -1, body = -1;            ///< Under the mouse; -1: none.
+  int side = -1, body = -1;            ///< Under the mouse; -1: none.
 };
 
 /// All windows of Dear ImGui.
@@ -52,9 +52,9 @@ class Panels {
  private:
   void DrawSidebar(Session* session, const Facts& facts, int height);
   void DrawScene(Controls* controls);
-  void DrawLane(int lane, Controls* controls);
+  void DrawSide(int side, Controls* controls);
   void DrawPlots(const Session& session, int width, int height);
-  void DrawLabel(Session* session, int lane, const Facts& facts, const Area& area, int height);
+  void DrawLabel(Session* session, int side, const Facts& facts, const Area& area, int height);
   bool Button(const char* title, const std::string& name, float width);
   /// The widget of a control, which has its name.
   void Control(const std::string& name, const char* unit = "");

@@ -100,8 +100,8 @@ TEST(Recorded, ABodyHasTheSizeOfItsInertiaAndAPlaceOfItsOwn) {
   }
 }
 
-TEST(Recorded, IsSolvedWithTheSettingsOfItsLane) {
-  const std::string path = PathOf("lane.cairn");
+TEST(Recorded, IsSolvedWithTheSettingsOfItsSide) {
+  const std::string path = PathOf("side.cairn");
   Record("bridge", 20, path);
   Session session(Of(path));
   session.Step();
@@ -120,17 +120,17 @@ TEST(Recorded, IsSolvedWithTheSettingsOfItsLane) {
   // the same again, and better with more
   const std::uint64_t hash = StateHash(right.world());
   const double before = left.history().back().residual;
-  session.controls().lanes[0].iterations = 200;
+  session.controls().players[0].iterations = 200;
   session.Step();
   EXPECT_EQ(StateHash(right.world()), hash);
   EXPECT_LT(left.history().back().residual, before / 2);
-  session.controls().lanes[1].steps = false;
-  session.controls().lanes[1].threads = 2;
+  session.controls().players[1].steps = false;
+  session.controls().players[1].threads = 2;
   session.Step();
   EXPECT_EQ(right.history().back().steps_kept, 0);
   EXPECT_EQ(right.settings()->threads, 2);
-  session.controls().lanes[1].budget = kFixed;
-  session.controls().lanes[1].budget_ms = 1.5;
+  session.controls().players[1].budget = kFixed;
+  session.controls().players[1].budget_ms = 1.5;
   session.Step();
   EXPECT_EQ(right.settings()->budget, Budget::Time(std::chrono::microseconds(1500)));
 }
@@ -160,7 +160,7 @@ TEST(Recorded, ContactsCarryTheWeightOfTheBodies) {
   const std::string path = PathOf("weight.cairn");
   Record("tower", 200, path);
   Session session(Of(path));
-  session.controls().lanes[1].iterations = 500;
+  session.controls().players[1].iterations = 500;
   bench::World& world = session.player(1).stage().world();
   session.Step();
   double up = 0;  // on the ground
@@ -211,18 +211,18 @@ TEST(Recorded, ASolverThatCannotSolveItSaysSoUntilAnotherComes) {
   const std::string path = PathOf("cannot.cairn");
   Record("castle", 2, path);
   Session session(Of(path));
-  session.controls().lanes[0].solver = "bullet-si-substeps4";
-  session.controls().lanes[1].solver = "bullet-dantzig";  // too many rows
+  session.controls().players[0].solver = "bullet-si-substeps4";
+  session.controls().players[1].solver = "bullet-dantzig";  // too many rows
   Steps(&session, 2);
   EXPECT_EQ(session.player(0).failure(), "bullet-si-substeps4 solves no recordings");
   EXPECT_NE(session.player(1).failure(), "");
   EXPECT_TRUE(session.player(1).history().empty());
-  session.controls().lanes[0].solver = "cairn-pgs";
-  session.controls().lanes[1].solver = "bullet-nncg";
+  session.controls().players[0].solver = "cairn-pgs";
+  session.controls().players[1].solver = "bullet-nncg";
   session.Step();
-  for (const int lane : {0, 1}) {
-    EXPECT_EQ(session.player(lane).failure(), "");
-    EXPECT_GT(session.player(lane).history().back().residual, 0);
+  for (const int side : {0, 1}) {
+    EXPECT_EQ(session.player(side).failure(), "");
+    EXPECT_GT(session.player(side).history().back().residual, 0);
   }
   EXPECT_FALSE(session.player(0).settings()->steps);
 }

@@ -11,7 +11,7 @@
 #include "cairn/detail/recording.h"
 #include "examples/debug_draw.h"
 #include "examples/fixed_steps.h"
-#include "run/lane.h"
+#include "run/solver_run.h"
 #include "scenes/facts.h"
 #include "support/failure.h"
 #include "worlds/random_world.h"
@@ -35,9 +35,9 @@ void Steps(Session* session, int count) {
 std::uint64_t RunHash(const std::string& scene, const std::string& size, const std::string& solver,
                       int frames) {
   const std::vector<cli::SolverChoice> choices = cli::ParseSolvers(solver);
-  cli::Lane lane(cli::ParseScene(scene, size), choices.front(), cli::RunOptions{});
-  for (int i = 0; i < frames; ++i) lane.Step(cli::Lane::Observing::kOff);
-  return StateHash(lane.world());
+  cli::SolverRun run(cli::ParseScene(scene, size), choices.front(), cli::RunOptions{});
+  for (int i = 0; i < frames; ++i) run.Step(cli::SolverRun::Observing::kOff);
+  return StateHash(run.world());
 }
 
 TEST(Session, HasTheBitsOfARun) {
@@ -77,7 +77,7 @@ TEST(Session, DrawingPausingAndMeasuringChangeNoBit) {
   for (int i = 0; i < 40; ++i) {
     busy.controls().paused = i % 2 == 0;
     busy.controls().measure = i % 3 == 0;
-    busy.controls().lanes[1].threads = 1 + i % 2;
+    busy.controls().players[1].threads = 1 + i % 2;
     plain.Step();
     busy.Step();
     const bench::World& world = busy.player(1).world();
@@ -135,23 +135,23 @@ TEST(Session, SolversChangeWhileItRuns) {
   Steps(&session, 5);
   EXPECT_EQ(session.player(1).solver().name, "cairn");
   const double height = bench::TopHeight(session.player(1).world());
-  session.controls().lanes[1].solver = "bullet-nncg";
+  session.controls().players[1].solver = "bullet-nncg";
   session.Step();
   EXPECT_EQ(session.player(1).solver().name, "bullet-nncg");
   EXPECT_EQ(session.player(1).cairn(), nullptr);
   EXPECT_NEAR(bench::TopHeight(session.player(1).world()), height, 0.01);  // the same world
-  session.controls().lanes[1].solver = "cairn";
+  session.controls().players[1].solver = "cairn";
   Steps(&session, 2);
   EXPECT_NE(session.player(1).cairn(), nullptr);
 }
 
 TEST(Session, SettingsReachTheSolver) {
   Session session(Of("pyramid"));
-  LaneControls& lane = session.controls().lanes[1];
-  lane.threads = 3;
-  lane.steps = false;
-  lane.acceleration = false;
-  lane.iterations = 7;
+  PlayerControls& right = session.controls().players[1];
+  right.threads = 3;
+  right.steps = false;
+  right.acceleration = false;
+  right.iterations = 7;
   session.controls().rate = 120;
   session.Step();
   const Settings& settings = session.player(1).cairn()->settings();
@@ -162,15 +162,15 @@ TEST(Session, SettingsReachTheSolver) {
   EXPECT_EQ(session.player(1).world().bullet()->getSolverInfo().m_numIterations, 7);
   EXPECT_EQ(session.player(1).world().time_step(), btScalar(1) / 120);
 
-  lane.budget = kFixed;
-  lane.budget_ms = 1.5;
+  right.budget = kFixed;
+  right.budget_ms = 1.5;
   session.Step();
   EXPECT_EQ(settings.budget, Budget::Time(std::chrono::microseconds(1500)));
-  lane.budget = kRest;
+  right.budget = kRest;
   session.SetRest(std::chrono::milliseconds(3));
   session.Step();
   EXPECT_EQ(settings.budget, Budget::Time(std::chrono::milliseconds(3)));
-  lane.budget = kMatch;
+  right.budget = kMatch;
   session.Step();
   ASSERT_EQ(settings.budget.kind(), Budget::Kind::kTime);
   EXPECT_GT(settings.budget.time().count(), 0);
@@ -188,10 +188,10 @@ TEST(Session, ADraggedBodyFollowsInBothWorlds) {
     session.Move(from + btVector3(0, btScalar(0.03) * btScalar(std::min(i, 50)), 0));
     session.Step();
   }
-  for (int lane : {0, 1}) {
-    const btRigidBody* held = session.player(lane).world().dynamic_bodies()[body];
-    EXPECT_NEAR(held->getCenterOfMassPosition().y(), from.y() + 1.5, 0.3) << lane;
-    EXPECT_EQ(session.player(lane).world().bullet()->getNumConstraints(), 1);
+  for (int side : {0, 1}) {
+    const btRigidBody* held = session.player(side).world().dynamic_bodies()[body];
+    EXPECT_NEAR(held->getCenterOfMassPosition().y(), from.y() + 1.5, 0.3) << side;
+    EXPECT_EQ(session.player(side).world().bullet()->getNumConstraints(), 1);
   }
   session.Release();
   Steps(&session, 10);
@@ -203,8 +203,8 @@ TEST(Session, ABallFliesIntoEachWorld) {
   Session session(Of("wall"));
   session.controls().ball_speed = 10;
   session.Shoot(btVector3(0, 1, 8), btVector3(0, 0, -3));
-  for (int lane : {0, 1}) {
-    const bench::World& world = session.player(lane).world();
+  for (int side : {0, 1}) {
+    const bench::World& world = session.player(side).world();
     EXPECT_EQ(world.dynamic_bodies().size(), 106u);
     EXPECT_NEAR(world.dynamic_bodies().back()->getLinearVelocity().z(), -10, 1e-5);
   }
@@ -253,14 +253,14 @@ TEST(Session, AFrameIsSavedForEachSolver) {
     EXPECT_EQ(recording.bodies.size(), 30u);
   }
   EXPECT_THAT(session.player(0).saved(), testing::StartsWith("written"));
-  session.controls().lanes = {LaneControls{}, LaneControls{.solver = "bullet-nncg"}};
+  session.controls().players = {PlayerControls{}, PlayerControls{.solver = "bullet-nncg"}};
   session.Save(folder + "/other.cairn");
   session.Step();
-  for (const int lane : {0, 1}) {
-    EXPECT_THAT(session.player(lane).saved(), testing::StartsWith("written")) << lane;
+  for (const int side : {0, 1}) {
+    EXPECT_THAT(session.player(side).saved(), testing::StartsWith("written")) << side;
   }
   session.Save(folder + "/late.cairn");
-  session.controls().lanes[0].solver = "bullet-si";  // who was asked is gone before the step
+  session.controls().players[0].solver = "bullet-si";  // who was asked is gone before the step
   session.Step();
   EXPECT_FALSE(std::filesystem::exists(folder + "/late-left.cairn"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/late-right.cairn"));
@@ -273,8 +273,8 @@ TEST(Session, AFrameIsSavedForEachSolver) {
 TEST(Session, StatisticsAreThoseOfTheWorld) {
   Session session(Of("bridge"));
   Steps(&session, 20);
-  for (int lane : {0, 1}) {
-    const Player& player = session.player(lane);
+  for (int side : {0, 1}) {
+    const Player& player = session.player(side);
     ASSERT_EQ(player.history().size(), 20u);
     const Sample& last = player.history().back();
     EXPECT_EQ(last.energy, bench::TotalEnergy(player.world()));
@@ -316,15 +316,15 @@ TEST(Controls, FieldsHaveNamesOfTheirOwnAndRefuseWhatTheyCannotBe) {
 TEST(Controls, PresetsAreWhatTheySay) {
   Controls controls;
   controls.worlds = 1;
-  controls.lanes[1].solver = "cairn";
+  controls.players[1].solver = "cairn";
   UsePreset("match", 0, &controls);
   EXPECT_EQ(controls.worlds, 2);
-  EXPECT_EQ(controls.lanes[0].budget, kMatch);
-  EXPECT_EQ(controls.lanes[1].solver, "bullet-si");
+  EXPECT_EQ(controls.players[0].budget, kMatch);
+  EXPECT_EQ(controls.players[1].solver, "bullet-si");
   UsePreset("2ms", 1, &controls);
-  EXPECT_EQ(controls.lanes[1], (LaneControls{.budget = std::string(kFixed), .budget_ms = 2}));
+  EXPECT_EQ(controls.players[1], (PlayerControls{.budget = std::string(kFixed), .budget_ms = 2}));
   UsePreset("bullet", 0, &controls);
-  EXPECT_EQ(controls.lanes[0], LaneControls{.solver = "bullet-si"});
+  EXPECT_EQ(controls.players[0], PlayerControls{.solver = "bullet-si"});
   EXPECT_THROW(UsePreset("fastest", 0, &controls), cli::Failure);
 }
 

@@ -138,12 +138,12 @@ class LoopTest(AccuracyTest):
         self.assertEqual(heavy_top["judged_by"], "height_lost_m")
         self.assertEqual(ragdolls["judged_by"], "joint_gap_m")
         for scene in written["scenes"]:
-            self.assertEqual([(lane["solver"], lane["effort"]) for lane in scene["solvers"]],
+            self.assertEqual([(solver["solver"], solver["effort"]) for solver in scene["solvers"]],
                              [(kind, budget) for budget in ("1 ms", "200 us")
                               for kind in ("sweeps", "accelerated", "steps")] +
                              [("bullet-si", "10 iterations")])
-            for lane in scene["solvers"]:
-                self.check_lane(lane, scene["judged_by"])
+            for solver in scene["solvers"]:
+                self.check_solver(solver, scene["judged_by"])
         self.assertIn("| 0/3 |", " ".join(text.split()))
         lost = heavy_top["solvers"][-1]["figures"]["height_lost_m"]["runs"]
         self.assertEqual(len(set(lost)), 3, "seeds make no difference")
@@ -156,15 +156,15 @@ class LoopTest(AccuracyTest):
         self.assertEqual(len(scene["solvers"][0]["figures"]["residual_m_s"]["runs"]), 1)
         self.assertIn("stopped early: heavy-top has 1 seeds", text)
 
-    def check_lane(self, lane, judged_by):
-        self.assertEqual((lane["collapsed"], lane["failures"], lane["failed_seeds"]), (0, [], []))
-        for name, figure in lane["figures"].items():
+    def check_solver(self, solver, judged_by):
+        self.assertEqual((solver["collapsed"], solver["failures"], solver["failed_seeds"]), (0, [], []))
+        for name, figure in solver["figures"].items():
             self.assertEqual(len(figure["runs"]), 3)
             if name in (judged_by, "residual_m_s", "time_ms"):
                 for value in figure["runs"]:
                     self.assertTrue(math.isfinite(value))
-        if lane["solver"] != "steps":
-            self.assertEqual(lane["figures"]["steps_accepted"]["runs"], [0, 0, 0])
+        if solver["solver"] != "steps":
+            self.assertEqual(solver["figures"]["steps_accepted"]["runs"], [0, 0, 0])
 
     def test_bad_input_is_refused_with_a_reason(self):
         self.assertIn("no unit", self.refused(USAGE, "loop", "--budgets", "2"))

@@ -64,12 +64,12 @@ def calm_down(repetitions):
                                for times in frames]
 
 
-def lane(result, scene=0, solver=0):
+def solver_of(result, scene=0, solver=0):
     return result["scenes"][scene]["solvers"][solver]
 
 
 def scale(result, key, factor, scene=0, solver=0):
-    for repetition in lane(result, scene, solver)["repetitions"]:
+    for repetition in solver_of(result, scene, solver)["repetitions"]:
         repetition[key] = [None if value is None else factor * value for value in repetition[key]]
 
 
@@ -82,7 +82,7 @@ class VerdictTest(CompareTest):
         for solver in ("bullet-si", "bullet-si@15", "cairn"):
             self.assertRegex(result.stdout, rf"(?m)^wall +{solver} .* \+0\.0 ")
 
-    def test_ten_percent_in_one_lane_are_one_regression_in_a_sentence(self):
+    def test_ten_percent_in_one_solver_are_one_regression_in_a_sentence(self):
         result = self.compare(self.changed(lambda r: scale(r, "time_ms", 1.1, 1, 0)))
         self.assertEqual(result.returncode, REGRESSION, result.stdout)
         sentences = [line for line in result.stdout.splitlines() if line.startswith("REGRESSION: ")]
@@ -120,7 +120,7 @@ class VerdictTest(CompareTest):
 
     def test_a_solver_that_fails_now_is_a_regression(self):
         failure = {"frame": 7, "reason": "exploded: a body moves at 2.0e+03 m/s"}
-        new = self.changed(lambda r: lane(r).update(failure=failure))
+        new = self.changed(lambda r: solver_of(r).update(failure=failure))
         result = self.compare(new)
         self.assertEqual(result.returncode, REGRESSION)
         self.assertIn("failed at frame 7, exploded", result.stdout)
@@ -140,7 +140,7 @@ class VerdictTest(CompareTest):
 
     def test_what_noise_hides_is_said(self):
         def disturb(result):
-            for repetition, factor in zip(lane(result, 1)["repetitions"], (1.0, 1.5, 1.5, 1.5, 1.5)):
+            for repetition, factor in zip(solver_of(result, 1)["repetitions"], (1.0, 1.5, 1.5, 1.5, 1.5)):
                 repetition["time_ms"] = [None if t is None else factor * t for t in repetition["time_ms"]]
         result = self.compare(self.changed(disturb))
         self.assertEqual(result.returncode, FINE, result.stdout)
@@ -149,7 +149,7 @@ class VerdictTest(CompareTest):
     def test_what_goes_by_the_clock_is_not_judged(self):
         def slower(result):
             scale(result, "time_ms", 1.5)
-        timed = self.changed(lambda r: lane(r).update(effort="2 ms"))
+        timed = self.changed(lambda r: solver_of(r).update(effort="2 ms"))
         new = copy.deepcopy(timed)
         slower(new)
         result = self.compare(new, old=timed)
@@ -210,11 +210,11 @@ class FileTest(CompareTest):
         self.assertIn("schema_version", self.refusal(self.changed(lambda r: r.pop("schema_version"))))
 
     def test_members_that_are_missing_or_do_not_fit_are_refused(self):
-        for change in (lambda r: lane(r).pop("repetitions"),
-                       lambda r: lane(r).update(repetitions=[]),
-                       lambda r: lane(r)["repetitions"][1]["time_ms"].pop(),
-                       lambda r: lane(r)["repetitions"][1]["time_ms"].__setitem__(20, "fast"),
-                       lambda r: lane(r)["repetitions"][1]["time_ms"].__setitem__(20, -1),
+        for change in (lambda r: solver_of(r).pop("repetitions"),
+                       lambda r: solver_of(r).update(repetitions=[]),
+                       lambda r: solver_of(r)["repetitions"][1]["time_ms"].pop(),
+                       lambda r: solver_of(r)["repetitions"][1]["time_ms"].__setitem__(20, "fast"),
+                       lambda r: solver_of(r)["repetitions"][1]["time_ms"].__setitem__(20, -1),
                        lambda r: r["scenes"][0]["metronome"].pop(),
                        lambda r: r["context"].pop("host")):
             self.assertIn("no whole result", self.refusal(self.changed(change)))
@@ -245,7 +245,7 @@ class FileTest(CompareTest):
                               (lambda r: r["context"]["run"].update(warmup_frames=0), "warm-up"),
                               (lambda r: r["scenes"][0].update(size=5), "size 5"),
                               (lambda r: r["scenes"][0].update(seed=5), "seed 5"),
-                              (lambda r: lane(r).update(effort="12 iterations"), "told differently")):
+                              (lambda r: solver_of(r).update(effort="12 iterations"), "told differently")):
             self.assertIn(words, self.refusal(self.changed(change)))
 
     def test_differences_that_may_be_meant_are_noted(self):

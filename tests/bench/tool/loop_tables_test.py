@@ -109,20 +109,20 @@ class TablesTest(unittest.TestCase):
             for test in comparison["scenes"].values():
                 self.assertEqual(test["less"] + test["more"] + test["equal"], 3)
                 self.assertTrue(0.25 <= test["p"] <= 1)  # of three pairs
-        lane = written["scenes"][0]["solvers"][-1]["figures"]["height_lost_m"]
-        self.assertEqual([lane["median"][name] for name in ("low", "value", "high")], sorted(lane["runs"]))
+        figure = written["scenes"][0]["solvers"][-1]["figures"]["height_lost_m"]
+        self.assertEqual([figure["median"][name] for name in ("low", "value", "high")], sorted(figure["runs"]))
 
     def test_what_is_lost_is_named(self):
         figures = {key: {"runs": [1.0] * 8} for key in loop_tables.FIGURES}
-        def lane(name, height, failed):
+        def solver(name, height, failed):
             return {"solver": name, "effort": "", "can_fall": True, "collapsed": len(failed), "failures": [],
                     "failed_seeds": failed, "figures": {**figures, "height_lost_m": {"runs": height}}}
         low, high = [0.001 * i for i in range(1, 9)], [None] + [0.01 + 0.002 * i for i in range(2, 9)]
         with open(self.run_file, "w", encoding="utf-8") as file:
             json.dump({"subcommand": "loop", "context": {"command": "x"}, "budgets_ms": [2],
                        "scenes": [{"scene": "tower", "judged_by": "height_lost_m",
-                                   "solvers": [lane("sweeps", low, []), lane("accelerated", low, []),
-                                               lane("steps", high, [1]), lane("bullet-si", low, [])]}]}, file)
+                                   "solvers": [solver("sweeps", low, []), solver("accelerated", low, []),
+                                               solver("steps", high, [1]), solver("bullet-si", low, [])]}]}, file)
         text, written = self.tables()
         for other in ("Bullet", "sweeps", "accelerated"):
             self.assertIn(f"- lost: tower, steps with {other}\n", text)

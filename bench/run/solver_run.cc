@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "run/lane.h"
+#include "run/solver_run.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +49,8 @@ void Observe(const ContactProblem& problem, std::span<const double> impulses, Fr
 
 }  // namespace
 
-Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOptions& options)
+SolverRun::SolverRun(const SceneChoice& scene, const SolverChoice& choice,
+                     const RunOptions& options)
     : contestant_(choice.Make()),
       watched_(contestant_->solver()),
       world_(&watched_),
@@ -74,17 +75,17 @@ Lane::Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOption
   if (options.page) replay_.emplace().Take(world_);
 }
 
-void Lane::ProbeNext(bench::InstrumentedSolver::Probe probe) {
+void SolverRun::ProbeNext(bench::InstrumentedSolver::Probe probe) {
   watched_.ProbeNext(std::move(probe));
   probing_ = true;
 }
 
-void Lane::RecordNext(const std::string& path, int frame) {
+void SolverRun::RecordNext(const std::string& path, int frame) {
   writer_.Ask(path, frame, cairn(), &watched_);
   if (cairn() == nullptr) probing_ = true;
 }
 
-void Lane::Prepare(Observing observing) {
+void SolverRun::Prepare(Observing observing) {
   btContactSolverInfo info = defaults_;
   contestant_->Begin(effort_, &info);
   if (std::exchange(probing_, false)) info.m_minimumSolverBatchSize = 1;
@@ -103,7 +104,7 @@ void Lane::Prepare(Observing observing) {
   });
 }
 
-void Lane::Step(Observing observing) {
+void SolverRun::Step(Observing observing) {
   if (failed()) return;
   Prepare(observing);
   scene_->BeforeStep(&world_, static_cast<int>(result_.frames.size()));
@@ -118,7 +119,7 @@ void Lane::Step(Observing observing) {
   Record(time);
 }
 
-void Lane::Record(std::chrono::nanoseconds time) {
+void SolverRun::Record(std::chrono::nanoseconds time) {
   const int frame = static_cast<int>(result_.frames.size());
   if (const std::string refusal = contestant_->refusal(); !refusal.empty()) {
     result_.failure = {.frame = frame, .reason = refusal};
@@ -144,7 +145,7 @@ void Lane::Record(std::chrono::nanoseconds time) {
   result_.frames.back().facts = ReadFrameFacts(*scene_, world_);
 }
 
-void Lane::KeepTimeline(std::optional<int> wanted) {
+void SolverRun::KeepTimeline(std::optional<int> wanted) {
   if (!timeline_ || failed()) return;
   const int frame = static_cast<int>(result_.frames.size()) - 1;
   const double time = result_.frames.back().time;
@@ -152,7 +153,7 @@ void Lane::KeepTimeline(std::optional<int> wanted) {
   if (keep) result_.timeline = timeline_->Read(frame, time);
 }
 
-SolverResult Lane::Finish() {
+SolverResult SolverRun::Finish() {
   result_.fallback_share = contestant_->fallback_share();
   if (replay_) result_.replay = replay_->Finish();
   if (!failed()) ReadFacts(*scene_, world_, &result_);

@@ -17,9 +17,9 @@
 namespace cairn::cli {
 
 /// One solver in a world of its own.
-class Lane {
+class SolverRun {
  public:
-  Lane(const SceneChoice& scene, const SolverChoice& choice, const RunOptions& options);
+  SolverRun(const SceneChoice& scene, const SolverChoice& choice, const RunOptions& options);
 
   enum class Observing { kOn, kOff };
   /// One frame of 1/60 s. Nothing once the solver has failed.
@@ -45,7 +45,7 @@ class Lane {
   /// Settings of the world before the solver changed them.
   const btContactSolverInfo& defaults() const { return defaults_; }
 
-  /// Keeps what happened in the last frame, if it is the one to be shown: frames that the lane was
+  /// Keeps what happened in the last frame, if it is the one to be shown: frames that the run was
   /// disturbed in are not.
   void KeepTimeline(std::optional<int> wanted);
   bool bullet_has_zones() const { return !timeline_ || timeline_->bullet_has_zones(); }
