@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of all replays of a page, in base64: with scripts and the rest the page stays below 8 MB.
-constexpr size_t kReplayBytes = 6'000'000;
+/// Of all animations of a page, in base64: with scripts and the rest the page stays below 8 MB.
+constexpr size_t kAnimationBytes = 6'000'000;
 
 /// Four digits are more than a picture shows.
 Json Short(double value) {
@@ -120,7 +120,7 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
           {"bullet_has_zones", scene.bullet_has_zones},
           {"solvers", solvers},
           {"scaling", Ways(scene.scaling)},
-          {"replay", PackReplay(scene, kReplayBytes / run.scenes.size())}};
+          {"replay", PackAnimation(scene, kAnimationBytes / run.scenes.size())}};
 }
 
 }  // namespace

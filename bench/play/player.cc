@@ -24,9 +24,9 @@ constexpr btScalar kBallDensity = 600;  // [kg/m^3]
 
 Player::Player(const Controls& controls, const PlayerControls& own) {
   SetSolver(own.solver);
-  stage_ = MakeStage(controls.scene, watched_.get());
-  watched_->Watch(stage_->world().bullet());
-  defaults_ = stage_->world().solver_info();
+  played_ = MakePlayedWorld(controls.scene, watched_.get());
+  watched_->Watch(played_->world().bullet());
+  defaults_ = played_->world().solver_info();
   Apply(controls, own);
 }
 
@@ -39,9 +39,9 @@ void Player::SetSolver(const std::string& name) {
   entry_ = &*found;  // names are checked where they are set
   std::unique_ptr<cli::Contestant> contestant = entry_->make();
   auto watched = std::make_unique<cli::WatchedSolver>(contestant->solver());
-  if (stage_) {
-    watched->Watch(stage_->world().bullet());
-    stage_->world().bullet()->setConstraintSolver(watched.get());
+  if (played_) {
+    watched->Watch(played_->world().bullet());
+    played_->world().bullet()->setConstraintSolver(watched.get());
   }
   writer_ = {};  // it knows the solver that goes
   watched_ = std::move(watched);
@@ -59,11 +59,11 @@ void Player::Apply(const Controls& controls, const PlayerControls& own) {
   own_ = own;
   measure_ = controls.measure;
   substeps_ = controls.substeps;
-  if (stage_->has_own_steps()) return;
-  stage_->world().SetTimeStep(btScalar(1) / btScalar(controls.rate));
-  if (controls.sleep && !sleep_) stage_->world().LetSleep();
+  if (played_->has_own_steps()) return;
+  played_->world().SetTimeStep(btScalar(1) / btScalar(controls.rate));
+  if (controls.sleep && !sleep_) played_->world().LetSleep();
   if (!controls.sleep) {
-    for (btRigidBody* body : stage_->world().dynamic_bodies()) {
+    for (btRigidBody* body : played_->world().dynamic_bodies()) {
       body->forceActivationState(DISABLE_DEACTIVATION);
     }
   }
@@ -71,8 +71,8 @@ void Player::Apply(const Controls& controls, const PlayerControls& own) {
 }
 
 void Player::Observe() {
-  observing_ =
-      measure_ && (stage_->world().dynamic_bodies().size() <= kManyBodies || frame_ % kSparse == 0);
+  observing_ = measure_ &&
+               (played_->world().dynamic_bodies().size() <= kManyBodies || frame_ % kSparse == 0);
   if (!observing_) return contestant_->Observe(nullptr);
   residual_ = 0;
   contestant_->Observe([this](const ContactProblem& problem, std::span<const double> impulses) {
@@ -83,19 +83,19 @@ void Player::Observe() {
 
 void Player::Step(std::optional<std::chrono::nanoseconds> budget) {
   effort_.budget = entry_->control == cli::Control::kClock ? budget : std::nullopt;
-  if (stage_->recorded() != nullptr) return SolveRecording();
+  if (played_->recorded() != nullptr) return SolveRecording();
   if (!failure_.empty()) return;
   btContactSolverInfo info = defaults_;
   contestant_->Begin(effort_, &info);
-  stage_->world().solver_info() = info;
+  played_->world().solver_info() = info;
   Observe();
 
-  const auto& objects = stage_->world().bullet()->getCollisionObjectArray();
+  const auto& objects = played_->world().bullet()->getCollisionObjectArray();
   before_.clear();
   for (int i = 0; i < objects.size(); ++i) before_.push_back(objects[i]->getWorldTransform());
 
   const auto begin = std::chrono::steady_clock::now();
-  stage_->Step(frame_, substeps_ * entry_->parts);
+  played_->Step(frame_, substeps_ * entry_->parts);
   Take(std::chrono::steady_clock::now() - begin);
   if (writer_.asked()) {
     const std::string fault = writer_.Take();
@@ -105,7 +105,7 @@ void Player::Step(std::optional<std::chrono::nanoseconds> budget) {
 }
 
 void Player::Take(std::chrono::nanoseconds all) {
-  const bench::World& world = stage_->world();
+  const bench::World& world = played_->world();
   const std::chrono::nanoseconds observing = contestant_->TakeObservingTime();
   const std::chrono::nanoseconds solver = watched_->TakeTime();
   const cli::Work work = contestant_->work();
@@ -136,7 +136,7 @@ void Player::Keep(const Sample& sample) {
 }
 
 void Player::SolveRecording() {
-  cli::FrameWorld& recorded = *stage_->recorded();
+  cli::FrameWorld& recorded = *played_->recorded();
   Settings settings = recorded.problem().frame.settings;
   settings.threads = own_.threads;
   settings.steps = own_.steps && entry_->name != "cairn-pgs";
@@ -166,28 +166,28 @@ double Player::MeanSolverTime() const {
 }
 
 void Player::Shoot(const btVector3& from, const btVector3& velocity, double mass) {
-  if (stage_->recorded() != nullptr) return;
+  if (played_->recorded() != nullptr) return;
   const btScalar volume = btScalar(mass) / kBallDensity;
   const btScalar radius = std::cbrt(volume * 3 / (4 * SIMD_PI));
   btTransform pose = btTransform::getIdentity();
   pose.setOrigin(from);
   btRigidBody* const ball =
-      stage_->world().AddSphere(radius, {.mass = btScalar(mass), .pose = pose});
+      played_->world().AddSphere(radius, {.mass = btScalar(mass), .pose = pose});
   ball->setLinearVelocity(velocity);
 }
 
 void Player::Grab(int body, const btVector3& at) {
   Release();
-  const auto bodies = stage_->world().dynamic_bodies();
-  if (body < 0 || body >= static_cast<int>(bodies.size()) || stage_->recorded()) return;
+  const auto bodies = played_->world().dynamic_bodies();
+  if (body < 0 || body >= static_cast<int>(bodies.size()) || played_->recorded()) return;
   btRigidBody* const held = bodies[body];
   pin_ = std::make_unique<btPoint2PointConstraint>(*held,
                                                    held->getCenterOfMassTransform().inverse() * at);
   pin_->m_setting.m_impulseClamp =
-      kPinForce * held->getMass() * stage_->world().time_step() / btScalar(substeps_);
+      kPinForce * held->getMass() * played_->world().time_step() / btScalar(substeps_);
   pin_->setParam(BT_CONSTRAINT_STOP_ERP, kPinErp);
   held->activate(true);
-  stage_->world().bullet()->addConstraint(pin_.get());
+  played_->world().bullet()->addConstraint(pin_.get());
 }
 
 void Player::Move(const btVector3& to) {
@@ -198,7 +198,7 @@ void Player::Move(const btVector3& to) {
 
 void Player::Release() {
   if (!pin_) return;
-  stage_->world().bullet()->removeConstraint(pin_.get());
+  played_->world().bullet()->removeConstraint(pin_.get());
   pin_.reset();
 }
 
@@ -214,19 +214,19 @@ int Player::Pick(const btVector3& from, const btVector3& to, btVector3* at) cons
 
 void Player::SaveNext(const std::string& path) {
   saved_ = "this is a recording already";
-  if (stage_->recorded() != nullptr) return;
+  if (played_->recorded() != nullptr) return;
   saved_ = path;
   writer_.Ask(path, frame_, cairn(), watched_.get());
 }
 
 const Settings* Player::settings() {
-  cli::FrameWorld* const recorded = stage_->recorded();
+  cli::FrameWorld* const recorded = played_->recorded();
   if (recorded == nullptr) return cairn() == nullptr ? nullptr : &cairn()->settings();
   return recorded->cairn() == nullptr ? nullptr : &recorded->cairn()->settings();
 }
 
 std::optional<IslandReport> Player::ReportOf(int body) {
-  if (cli::FrameWorld* const recorded = stage_->recorded()) {
+  if (cli::FrameWorld* const recorded = played_->recorded()) {
     return recorded->ReportOf(*world().dynamic_bodies()[body]);
   }
   if (cairn() == nullptr || frame_ == 0) return {};

@@ -9,7 +9,7 @@
 
 #include "contestants/solver_registry.h"
 #include "contestants/watched_solver.h"
-#include "play/stage.h"
+#include "play/played_world.h"
 #include "run/frame_writer.h"
 
 namespace cairn::play {
@@ -30,7 +30,7 @@ struct Sample {
 /// One world with one solver, which may be changed while it runs.
 class Player {
  public:
-  /// @throws cli::Failure as MakeStage() does
+  /// @throws cli::Failure as MakePlayedWorld() does
   Player(const Controls& controls, const PlayerControls& own);
   ~Player();
 
@@ -53,8 +53,8 @@ class Player {
   /// What became of it; before the step, its path.
   const std::string& saved() const { return saved_; }
 
-  const bench::World& world() const { return stage_->world(); }
-  Stage& stage() { return *stage_; }
+  const bench::World& world() const { return played_->world(); }
+  PlayedWorld& played() { return *played_; }
   const cli::SolverEntry& solver() const { return *entry_; }
   bullet::ConstraintSolver* cairn() { return contestant_->cairn(); }
   /// What Cairn was told; nullptr of Bullet's solvers.
@@ -83,7 +83,7 @@ class Player {
   const cli::SolverEntry* entry_ = nullptr;
   std::unique_ptr<cli::Contestant> contestant_;
   std::unique_ptr<cli::WatchedSolver> watched_;
-  std::unique_ptr<Stage> stage_;
+  std::unique_ptr<PlayedWorld> played_;
   btContactSolverInfo defaults_;
   cli::Effort effort_;
   PlayerControls own_;

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "animation/animation.h"
 #include "contestants/timeline.h"
 #include "effort/effort_ladder.h"
 #include "effort/scaling.h"
-#include "replay/replay.h"
 #include "run/frame_facts.h"
 #include "support/machine/metronome.h"
 #include "support/machine/run_context.h"
@@ -61,8 +61,8 @@ struct SolverResult {
   std::optional<bool> standing;  ///< Only where the scene is something that can fall.
   /// For each sample, from the least effort on; with RunOptions::page.
   std::vector<std::vector<CurvePoint>> curves;
-  Replay replay;      ///< With RunOptions::page.
-  Timeline timeline;  ///< Of one frame, with RunOptions::timelines.
+  Animation animation;  ///< With RunOptions::page.
+  Timeline timeline;    ///< Of one frame, with RunOptions::timelines.
 };
 
 /// A state that every solver was given.

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "effort/error_sampler.h"
-#include "replay/sample_plan.h"
 #include "run/solver_run.h"
 #include "support/duration.h"
 #include "support/machine/metronome.h"
+#include "support/sample_plan.h"
 
 namespace cairn::cli {
 namespace {

@@ -72,7 +72,7 @@ SolverRun::SolverRun(const SceneChoice& scene, const SolverChoice& choice,
     timeline_.emplace(contestant_->threads());
     contestant_->RecordSpans(timeline_->spans());
   }
-  if (options.page) replay_.emplace().Take(world_);
+  if (options.page) animation_.emplace().Take(world_);
 }
 
 void SolverRun::ProbeNext(bench::InstrumentedSolver::Probe probe) {
@@ -140,8 +140,8 @@ void SolverRun::Record(std::chrono::nanoseconds time) {
     result_.failure = {.frame = frame, .reason = watched_.failure()};
     return;
   }
-  if (!replay_) return;
-  replay_->Take(world_);
+  if (!animation_) return;
+  animation_->Take(world_);
   result_.frames.back().facts = ReadFrameFacts(*scene_, world_);
 }
 
@@ -155,7 +155,7 @@ void SolverRun::KeepTimeline(std::optional<int> wanted) {
 
 SolverResult SolverRun::Finish() {
   result_.fallback_share = contestant_->fallback_share();
-  if (replay_) result_.replay = replay_->Finish();
+  if (animation_) result_.animation = animation_->Finish();
   if (!failed()) ReadFacts(*scene_, world_, &result_);
   return std::move(result_);
 }

@@ -72,7 +72,7 @@ class SolverRun {
   bool probing_ = false;
   Frame observed_;  ///< What observing found in this frame: residual, rows, islands.
   FrameWriter writer_;
-  std::optional<ReplayRecorder> replay_;
+  std::optional<AnimationRecorder> animation_;
   std::optional<TimelineRecorder> timeline_;
   SolverResult result_;
 };

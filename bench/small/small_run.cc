@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "replay/sample_plan.h"
 #include "run/solver_run.h"
 #include "scenes/facts.h"
 #include "small/same_states.h"
 #include "support/machine/cold_caches.h"
 #include "support/machine/stopwatch.h"
 #include "support/progress.h"
+#include "support/sample_plan.h"
 #include "support/statistics.h"
 
 namespace cairn::cli {

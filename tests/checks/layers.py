@@ -17,7 +17,7 @@ BELOW_STEP = BELOW_SWEEP + ("core/src/sweep/", "core/src/cholesky/")
 # Rooms of the bench.
 BELOW_RUN = ("bullet_adapter/include/", "core/include/", "bench/support/", "bench/measure/",
              "bench/contestants/")
-ABOVE_RUN = BELOW_RUN + ("bench/scenes/", "bench/effort/", "bench/replay/")
+ABOVE_RUN = BELOW_RUN + ("bench/scenes/", "bench/effort/", "bench/animation/")
 
 # Folder -> prefixes of our own files that it may include. The longest folder that fits a file counts.
 MAY_INCLUDE = {
@@ -58,7 +58,7 @@ MAY_INCLUDE = {
                      "core/lcp/include/", "simd/"),
     "bench/contestants": BELOW_RUN[:4] + ("bench/contestants/",),
     "bench/effort": BELOW_RUN + ("bench/effort/", "simd/"),
-    "bench/replay": ("bench/scenes/", "bench/replay/"),
+    "bench/animation": ("bench/scenes/", "bench/animation/"),
     "bench/run": ABOVE_RUN + ("bench/run/",),
     "bench/compare": ("bench/support/", "bench/run/", "bench/compare/"),
     "bench/page": ("bench/support/", "bench/run/", "bench/compare/", "bench/page/"),

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "replay/sample_plan.h"
 #include "run/scene_run.h"
+#include "support/sample_plan.h"
 #include "support/statistics.h"
 
 namespace cairn::accuracy {

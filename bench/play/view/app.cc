@@ -165,7 +165,7 @@ void App::Hover() {
       session_.player(facts_.side).Pick(eye, eye + 1000 * RayUnderMouse(facts_.side), &at);
   if (facts_.body < 0) {
     facts_.side = -1;
-  } else if (ImGui::IsMouseClicked(0) && !session_.player(facts_.side).stage().recorded()) {
+  } else if (ImGui::IsMouseClicked(0) && !session_.player(facts_.side).played().recorded()) {
     session_.Grab(facts_.body, at);
     grip_ = static_cast<float>((at - eye).length());
   }

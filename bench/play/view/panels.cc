@@ -99,7 +99,7 @@ std::string DescribeIsland(Player* player, int body) {
       "body {}, island of {} bodies, {:.4g} kg{}\n{} contacts, {} joints, speed {:.2g} m/s", body,
       facts.bodies, facts.mass, facts.asleep ? ", asleep" : "", facts.contacts, facts.joints,
       facts.speed);
-  if (player->stage().recorded() == nullptr) {
+  if (player->played().recorded() == nullptr) {
     text += fmt::format("\ndeepest {:.2f} mm, joint gap {:.2f} mm", 1000 * facts.penetration,
                         1000 * facts.joint_gap);
   }
@@ -329,13 +329,13 @@ void Panels::DrawLabel(Session* session, int side, const Facts& facts, const Are
     const Sample& last = player.history().back();
     const std::string deepest = fmt::format(", deepest {:.1f} mm", 1000 * last.penetration);
     ImGui::Text("residual %.2g m/s%s", last.residual,
-                player.stage().recorded() ? "" : deepest.c_str());
+                player.played().recorded() ? "" : deepest.c_str());
     const std::string parts =
         fmt::format(", last {:.2f} + {:.2f} + {:.2f}", last.build_ms, last.solve_ms, last.write_ms);
-    const bool split = player.cairn() && !player.stage().recorded() && width > 300;
+    const bool split = player.cairn() && !player.played().recorded() && width > 300;
     ImGui::Text("solver %.2f ms%s", player.MeanSolverTime(), split ? parts.c_str() : "");
   }
-  if (const cli::FrameWorld* const recorded = player.stage().recorded()) {
+  if (const cli::FrameWorld* const recorded = player.played().recorded()) {
     const Recording& frame = recorded->problem().frame;
     ImGui::Text("frame %lld, %zu rows\nof %s", static_cast<long long>(frame.frame),
                 recorded->problem().rows.rows.size(), frame.source.c_str());

@@ -7,11 +7,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "animation/shape_mesh.h"
 #include "examples/debug_draw.h"
 #include "play/player.h"
 #include "play/view/camera.h"
 #include "play/view/gl.h"
-#include "replay/shape_mesh.h"
 
 namespace cairn::play {
 

@@ -148,7 +148,7 @@ TEST(Recorded, HasTheBitsOfACallOfTheLibrary) {
   Solver solver(recording.settings);
   std::vector<Velocity> velocities(recording.bodies.size());
   ASSERT_TRUE(solver.Solve(recording.problem(), recording.impulses(), velocities).ok());
-  const auto& outcome = session.player(1).stage().recorded()->outcome();
+  const auto& outcome = session.player(1).played().recorded()->outcome();
   for (size_t i = 0; i < velocities.size(); ++i) {
     EXPECT_EQ(outcome.velocities[i].linear, velocities[i].linear) << i;
     EXPECT_EQ(outcome.velocities[i].angular, velocities[i].angular) << i;
@@ -161,7 +161,7 @@ TEST(Recorded, ContactsCarryTheWeightOfTheBodies) {
   Record("tower", 200, path);
   Session session(Of(path));
   session.controls().players[1].iterations = 500;
-  bench::World& world = session.player(1).stage().world();
+  bench::World& world = session.player(1).played().world();
   session.Step();
   double up = 0;  // on the ground
   btDispatcher& dispatcher = *world.bullet()->getDispatcher();

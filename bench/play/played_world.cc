@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "play/stage.h"
+#include "play/played_world.h"
 
 #include "run/imported_scene.h"
 #include "run/scene_choice.h"
@@ -8,9 +8,9 @@
 namespace cairn::play {
 namespace {
 
-class SceneStage : public Stage {
+class PlayedScene : public PlayedWorld {
  public:
-  SceneStage(const cli::SceneChoice& choice, btConstraintSolver* solver)
+  PlayedScene(const cli::SceneChoice& choice, btConstraintSolver* solver)
       : world_(solver), info_(choice.info), scene_(choice.make()) {
     scene_->Build(&world_, {.size = choice.size, .seed = choice.seed});
   }
@@ -26,9 +26,9 @@ class SceneStage : public Stage {
   std::unique_ptr<bench::Scene> scene_;
 };
 
-class RandomStage : public Stage {
+class PlayedRandomWorld : public PlayedWorld {
  public:
-  RandomStage(int seed, btConstraintSolver* solver)
+  PlayedRandomWorld(int seed, btConstraintSolver* solver)
       : world_({.seed = static_cast<std::uint64_t>(seed)}, solver) {}
   bench::World& world() override { return world_.world(); }
   void Step(int, int) override { world_.Step(); }
@@ -38,9 +38,9 @@ class RandomStage : public Stage {
   bench::RandomWorld world_;
 };
 
-class RecordedStage : public Stage {
+class PlayedRecording : public PlayedWorld {
  public:
-  RecordedStage(const std::string& path, btConstraintSolver* solver)
+  PlayedRecording(const std::string& path, btConstraintSolver* solver)
       : frame_(cli::LoadRowProblem(path), solver) {}
   bench::World& world() override { return frame_.world(); }
   void Step(int, int) override {}
@@ -53,17 +53,19 @@ class RecordedStage : public Stage {
 
 }  // namespace
 
-std::unique_ptr<Stage> MakeStage(const SceneControls& scene, btConstraintSolver* solver) {
-  if (scene.scene.ends_with(".cairn")) return std::make_unique<RecordedStage>(scene.scene, solver);
-  if (scene.scene == "random") return std::make_unique<RandomStage>(scene.seed, solver);
+std::unique_ptr<PlayedWorld> MakePlayedWorld(const SceneControls& scene,
+                                             btConstraintSolver* solver) {
+  if (scene.scene.ends_with(".cairn"))
+    return std::make_unique<PlayedRecording>(scene.scene, solver);
+  if (scene.scene == "random") return std::make_unique<PlayedRandomWorld>(scene.seed, solver);
   const auto seed = static_cast<std::uint64_t>(scene.seed);
   if (scene.scene.ends_with(".bullet")) {
-    return std::make_unique<SceneStage>(cli::ImportScene(scene.scene, seed), solver);
+    return std::make_unique<PlayedScene>(cli::ImportScene(scene.scene, seed), solver);
   }
   cli::SceneChoice choice =
       cli::ParseScene(scene.scene, scene.size == 0 ? "" : std::to_string(scene.size));
   choice.seed = seed;
-  return std::make_unique<SceneStage>(choice, solver);
+  return std::make_unique<PlayedScene>(choice, solver);
 }
 
 }  // namespace cairn::play

@@ -40,8 +40,8 @@ Box BoxOf(const SceneResult& scene) {
   low.fill(INFINITY);
   high.fill(-INFINITY);
   for (const SolverResult& solver : scene.solvers) {
-    if (solver.replay.frames.empty()) continue;
-    for (const Pose& pose : solver.replay.frames.front().poses) {
+    if (solver.animation.frames.empty()) continue;
+    for (const Pose& pose : solver.animation.frames.front().poses) {
       for (int i = 0; i < 3; ++i) {
         low[i] = std::min<double>(low[i], pose.position[i]);
         high[i] = std::max<double>(high[i], pose.position[i]);
@@ -63,7 +63,7 @@ class Packer {
  public:
   explicit Packer(const Box& box) : box_(box) {}
 
-  void Add(const ReplayFrame& frame) {
+  void Add(const AnimationFrame& frame) {
     for (const Pose& pose : frame.poses) {
       for (int i = 0; i < 3; ++i) {
         Append((pose.position[i] - box_.low[i]) / box_.side * 2 - 1);
@@ -101,11 +101,11 @@ Json ToJson(const Pose& pose) {
   return json;
 }
 
-Json ToJson(const std::vector<ReplayBody>& bodies) {
+Json ToJson(const std::vector<AnimatedBody>& bodies) {
   Json json = Json::array();
-  for (const ReplayBody& body : bodies) {
+  for (const AnimatedBody& body : bodies) {
     Json parts = Json::array();
-    for (const ReplayPart& part : body.parts) {
+    for (const AnimatedPart& part : body.parts) {
       parts.push_back({{"shape", part.shape}, {"pose", ToJson(part.pose)}});
     }
     json.push_back(parts);
@@ -115,20 +115,21 @@ Json ToJson(const std::vector<ReplayBody>& bodies) {
 
 /// What all solvers have in common, from the one that saw most bodies.
 Json Things(const SceneResult& scene) {
-  const Replay& replay = std::max_element(scene.solvers.begin(), scene.solvers.end(),
-                                          [](const SolverResult& a, const SolverResult& b) {
-                                            return a.replay.bodies.size() < b.replay.bodies.size();
-                                          })
-                             ->replay;
+  const Animation& animation =
+      std::max_element(scene.solvers.begin(), scene.solvers.end(),
+                       [](const SolverResult& a, const SolverResult& b) {
+                         return a.animation.bodies.size() < b.animation.bodies.size();
+                       })
+          ->animation;
   Json shapes = Json::array(), still = Json::array();
-  for (const ReplayShape& shape : replay.shapes) {
+  for (const AnimatedShape& shape : animation.shapes) {
     shapes.push_back({{"kind", shape.kind}, {"numbers", shape.numbers}});
   }
-  for (const Pose& pose : replay.still_poses) still.push_back(ToJson(pose));
-  return {{"up", replay.up},
+  for (const Pose& pose : animation.still_poses) still.push_back(ToJson(pose));
+  return {{"up", animation.up},
           {"shapes", shapes},
-          {"bodies", ToJson(replay.bodies)},
-          {"still_bodies", ToJson(replay.still_bodies)},
+          {"bodies", ToJson(animation.bodies)},
+          {"still_bodies", ToJson(animation.still_bodies)},
           {"still_poses", still}};
 }
 
@@ -136,24 +137,25 @@ Json Things(const SceneResult& scene) {
 size_t StrideFor(const SceneResult& scene, size_t bytes) {
   size_t all = 0;
   for (const SolverResult& solver : scene.solvers) {
-    for (const ReplayFrame& frame : solver.replay.frames) all += frame.poses.size() * kBytesOfBody;
+    for (const AnimationFrame& frame : solver.animation.frames)
+      all += frame.poses.size() * kBytesOfBody;
   }
   return std::max<size_t>(1, (all * 4 / 3 + bytes - 1) / bytes);
 }
 
 }  // namespace
 
-Json PackReplay(const SceneResult& scene, size_t bytes) {
+Json PackAnimation(const SceneResult& scene, size_t bytes) {
   const size_t stride = StrideFor(scene, bytes);
   const Box box = BoxOf(scene);
   Json solvers = Json::array();
   for (const SolverResult& solver : scene.solvers) {
     Packer packer(box);
     Json frames = Json::array(), counts = Json::array();
-    for (size_t i = 0; i < solver.replay.frames.size(); i += stride) {
-      packer.Add(solver.replay.frames[i]);
+    for (size_t i = 0; i < solver.animation.frames.size(); i += stride) {
+      packer.Add(solver.animation.frames[i]);
       frames.push_back(i);
-      counts.push_back(solver.replay.frames[i].poses.size());
+      counts.push_back(solver.animation.frames[i].poses.size());
     }
     solvers.push_back({{"frames", frames},
                        {"counts", counts},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/sample_plan.h"
+#include "support/sample_plan.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "replay/shape_mesh.h"
+#include "animation/shape_mesh.h"
 
 #include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <LinearMath/btConvexHullComputer.h>

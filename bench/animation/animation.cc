@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "replay/replay.h"
+#include "animation/animation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "replay/replay_shape.h"
+#include "animation/animated_shape.h"
 #include "scenes/facts.h"
 
 namespace cairn::cli {
@@ -19,14 +19,14 @@ Pose ToPose(const btTransform& transform) {
 
 }  // namespace
 
-int ReplayRecorder::ShapeOf(const btCollisionShape& shape) {
-  const auto [entry, is_new] = shapes_.try_emplace(&shape, int(replay_.shapes.size()));
-  if (is_new) replay_.shapes.push_back(ToReplayShape(shape));
+int AnimationRecorder::ShapeOf(const btCollisionShape& shape) {
+  const auto [entry, is_new] = shapes_.try_emplace(&shape, int(animation_.shapes.size()));
+  if (is_new) animation_.shapes.push_back(ToAnimatedShape(shape));
   return entry->second;
 }
 
-void ReplayRecorder::AddParts(const btCollisionShape& shape, const btTransform& pose,
-                              ReplayBody* body) {
+void AnimationRecorder::AddParts(const btCollisionShape& shape, const btTransform& pose,
+                                 AnimatedBody* body) {
   if (!shape.isCompound()) {
     body->parts.push_back({.shape = ShapeOf(shape), .pose = ToPose(pose * AxisOf(shape))});
     return;
@@ -37,34 +37,34 @@ void ReplayRecorder::AddParts(const btCollisionShape& shape, const btTransform& 
   }
 }
 
-ReplayBody ReplayRecorder::Describe(const btCollisionShape& shape) {
-  ReplayBody body;
+AnimatedBody AnimationRecorder::Describe(const btCollisionShape& shape) {
+  AnimatedBody body;
   AddParts(shape, btTransform::getIdentity(), &body);
   return body;
 }
 
-void ReplayRecorder::AddNewBodies(const bench::World& world) {
-  if (replay_.frames.empty()) {
+void AnimationRecorder::AddNewBodies(const bench::World& world) {
+  if (animation_.frames.empty()) {
     const btVector3 gravity = world.bullet()->getGravity();
     if (!gravity.fuzzyZero()) {
       const btVector3 up = -gravity.normalized();
-      replay_.up = {float(up.x()), float(up.y()), float(up.z())};
+      animation_.up = {float(up.x()), float(up.y()), float(up.z())};
     }
     const btCollisionObjectArray& objects = world.bullet()->getCollisionObjectArray();
     for (int i = 0; i < objects.size(); ++i) {
       if (!objects[i]->isStaticOrKinematicObject()) continue;
-      replay_.still_bodies.push_back(Describe(*objects[i]->getCollisionShape()));
-      replay_.still_poses.push_back(ToPose(objects[i]->getWorldTransform()));
+      animation_.still_bodies.push_back(Describe(*objects[i]->getCollisionShape()));
+      animation_.still_poses.push_back(ToPose(objects[i]->getWorldTransform()));
     }
   }
-  for (size_t i = replay_.bodies.size(); i < world.dynamic_bodies().size(); ++i) {
+  for (size_t i = animation_.bodies.size(); i < world.dynamic_bodies().size(); ++i) {
     const btRigidBody* const body = world.dynamic_bodies()[i];
     index_[body] = static_cast<int>(i);
-    replay_.bodies.push_back(Describe(*body->getCollisionShape()));
+    animation_.bodies.push_back(Describe(*body->getCollisionShape()));
   }
 }
 
-std::vector<float> ReplayRecorder::Errors(const bench::World& world) const {
+std::vector<float> AnimationRecorder::Errors(const bench::World& world) const {
   std::vector<float> errors(world.dynamic_bodies().size(), 0);
   const auto raise = [&](const btCollisionObject* body, double error) {
     const auto entry = index_.find(body);
@@ -89,9 +89,9 @@ std::vector<float> ReplayRecorder::Errors(const bench::World& world) const {
   return errors;
 }
 
-void ReplayRecorder::Take(const bench::World& world) {
+void AnimationRecorder::Take(const bench::World& world) {
   AddNewBodies(world);
-  ReplayFrame& frame = replay_.frames.emplace_back();
+  AnimationFrame& frame = animation_.frames.emplace_back();
   frame.poses.reserve(world.dynamic_bodies().size());
   for (const btRigidBody* body : world.dynamic_bodies()) {
     frame.poses.push_back(ToPose(body->getCenterOfMassTransform()));

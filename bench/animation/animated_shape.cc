@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "replay/replay_shape.h"
+#include "animation/animated_shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "replay/shape_mesh.h"
+#include "animation/shape_mesh.h"
 
 namespace cairn::cli {
 namespace {
@@ -15,18 +15,18 @@ constexpr size_t kMostNumbers = 9 * 20000;
 /// Planes end somewhere [m].
 constexpr float kPlaneHalfSide = 100, kPlaneHalfThickness = 0.5F;
 
-ReplayShape Box(const btVector3& half) {
+AnimatedShape Box(const btVector3& half) {
   return {.kind = "box", .numbers = {float(half.x()), float(half.y()), float(half.z())}};
 }
 
-ReplayShape Bounds(const btCollisionShape& shape) {
+AnimatedShape Bounds(const btCollisionShape& shape) {
   btVector3 low, high;
   shape.getAabb(btTransform::getIdentity(), low, high);
   return Box((high - low) / 2);
 }
 
-ReplayShape Hull(const btConvexHullShape& hull) {
-  ReplayShape shape{.kind = "hull", .numbers = {}};
+AnimatedShape Hull(const btConvexHullShape& hull) {
+  AnimatedShape shape{.kind = "hull", .numbers = {}};
   for (int i = 0; i < hull.getNumPoints(); ++i) {
     const btVector3 corner = hull.getScaledPoint(i);
     for (int axis = 0; axis < 3; ++axis) shape.numbers.push_back(float(corner[axis]));
@@ -34,10 +34,10 @@ ReplayShape Hull(const btConvexHullShape& hull) {
   return shape;
 }
 
-ReplayShape Mesh(const btConcaveShape& mesh) {
+AnimatedShape Mesh(const btConcaveShape& mesh) {
   const std::vector<btVector3> corners = TrianglesOf(mesh, btScalar(1e6));
   if (corners.empty() || 3 * corners.size() > kMostNumbers) return Bounds(mesh);
-  ReplayShape shape{.kind = "triangles", .numbers = {}};
+  AnimatedShape shape{.kind = "triangles", .numbers = {}};
   for (const btVector3& corner : corners) {
     for (int axis = 0; axis < 3; ++axis) shape.numbers.push_back(float(corner[axis]));
   }
@@ -57,13 +57,13 @@ bool IsDrawnAsBounds(const btCollisionShape& shape) {
     case CONVEX_HULL_SHAPE_PROXYTYPE:
       return false;
     default:
-      return !shape.isConcave() || ToReplayShape(shape).kind == "box";
+      return !shape.isConcave() || ToAnimatedShape(shape).kind == "box";
   }
 }
 
 }  // namespace
 
-ReplayShape ToReplayShape(const btCollisionShape& shape) {
+AnimatedShape ToAnimatedShape(const btCollisionShape& shape) {
   switch (shape.getShapeType()) {
     case BOX_SHAPE_PROXYTYPE:
       return Box(static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin());

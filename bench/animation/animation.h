@@ -19,7 +19,7 @@ struct Pose {
 };
 
 /// A shape as it is drawn.
-struct ReplayShape {
+struct AnimatedShape {
   /// "box" (half extents), "sphere" (radius), "cylinder" (radius, height), "capsule" (radius,
   /// distance of the centres), all along y; "hull" and "triangles" (corners, three numbers each).
   std::string kind;
@@ -27,46 +27,46 @@ struct ReplayShape {
 };
 
 /// A piece of a body.
-struct ReplayPart {
+struct AnimatedPart {
   int shape = 0;
   Pose pose;  ///< In the frame of the body.
 };
 
-struct ReplayBody {
-  std::vector<ReplayPart> parts;
+struct AnimatedBody {
+  std::vector<AnimatedPart> parts;
 };
 
-struct ReplayFrame {
+struct AnimationFrame {
   std::vector<Pose> poses;  ///< Of the dynamic bodies, which may grow in number.
   /// Of each: the deepest overlap of its contacts or the largest gap of its joints [m].
   std::vector<float> errors;
 };
 
 /// The motion of a world.
-struct Replay {
+struct Animation {
   std::array<float, 3> up{0, 1, 0};  ///< Against gravity.
-  std::vector<ReplayShape> shapes;
-  std::vector<ReplayBody> bodies;        ///< Dynamic ones.
-  std::vector<ReplayBody> still_bodies;  ///< Static ones, in their place.
+  std::vector<AnimatedShape> shapes;
+  std::vector<AnimatedBody> bodies;        ///< Dynamic ones.
+  std::vector<AnimatedBody> still_bodies;  ///< Static ones, in their place.
   std::vector<Pose> still_poses;
-  std::vector<ReplayFrame> frames;  ///< The first is the world as built.
+  std::vector<AnimationFrame> frames;  ///< The first is the world as built.
 };
 
 /// Takes down how a world moves.
-class ReplayRecorder {
+class AnimationRecorder {
  public:
   /// The world as it is now, as the next frame.
   void Take(const bench::World& world);
-  Replay Finish() { return std::move(replay_); }
+  Animation Finish() { return std::move(animation_); }
 
  private:
   void AddNewBodies(const bench::World& world);
-  ReplayBody Describe(const btCollisionShape& shape);
-  void AddParts(const btCollisionShape& shape, const btTransform& pose, ReplayBody* body);
+  AnimatedBody Describe(const btCollisionShape& shape);
+  void AddParts(const btCollisionShape& shape, const btTransform& pose, AnimatedBody* body);
   int ShapeOf(const btCollisionShape& shape);
   std::vector<float> Errors(const bench::World& world) const;
 
-  Replay replay_;
+  Animation animation_;
   std::unordered_map<const btCollisionShape*, int> shapes_;
   std::unordered_map<const btCollisionObject*, int> index_;  ///< of dynamic bodies
 };

@@ -10,11 +10,11 @@
 namespace cairn::play {
 
 /// A world and what happens to it from outside, whatever it comes from.
-class Stage {
+class PlayedWorld {
  public:
-  virtual ~Stage() = default;
+  virtual ~PlayedWorld() = default;
   virtual bench::World& world() = 0;
-  const bench::World& world() const { return const_cast<Stage*>(this)->world(); }
+  const bench::World& world() const { return const_cast<PlayedWorld*>(this)->world(); }
   /// Frame number `frame` from the start, in so many parts.
   virtual void Step(int frame, int parts) = 0;
   /// Whether length and parts of steps are its own.
@@ -23,8 +23,9 @@ class Stage {
   virtual cli::FrameWorld* recorded() { return nullptr; }
 };
 
-/// @pre `solver` outlives the stage, or another one takes its place
+/// @pre `solver` outlives the world, or another one takes its place
 /// @throws cli::Failure for a scene, size or file that is not there
-std::unique_ptr<Stage> MakeStage(const SceneControls& scene, btConstraintSolver* solver);
+std::unique_ptr<PlayedWorld> MakePlayedWorld(const SceneControls& scene,
+                                             btConstraintSolver* solver);
 
 }  // namespace cairn::play
