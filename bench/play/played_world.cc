@@ -3,6 +3,7 @@
 
 #include "run/imported_scene.h"
 #include "run/scene_choice.h"
+#include "run/scene_run.h"
 #include "worlds/random_world.h"
 
 namespace cairn::play {
@@ -11,19 +12,12 @@ namespace {
 class PlayedScene : public PlayedWorld {
  public:
   PlayedScene(const cli::SceneChoice& choice, btConstraintSolver* solver)
-      : world_(solver), info_(choice.info), scene_(choice.make()) {
-    scene_->Build(&world_, {.size = choice.size, .seed = choice.seed});
-  }
-  bench::World& world() override { return world_; }
-  void Step(int frame, int parts) override {
-    scene_->BeforeStep(&world_, frame);
-    world_.Step(parts);
-  }
+      : scene_(choice, solver) {}
+  bench::World& world() override { return scene_.world(); }
+  void Step(int parts) override { scene_.Step(parts); }
 
  private:
-  bench::World world_;
-  std::shared_ptr<const bench::SceneInfo> info_;
-  std::unique_ptr<bench::Scene> scene_;
+  cli::BuiltScene scene_;
 };
 
 class PlayedRandomWorld : public PlayedWorld {
@@ -31,7 +25,7 @@ class PlayedRandomWorld : public PlayedWorld {
   PlayedRandomWorld(int seed, btConstraintSolver* solver)
       : world_({.seed = static_cast<std::uint64_t>(seed)}, solver) {}
   bench::World& world() override { return world_.world(); }
-  void Step(int, int) override { world_.Step(); }
+  void Step(int) override { world_.Step(); }
   bool has_own_steps() const override { return true; }
 
  private:
@@ -43,7 +37,7 @@ class PlayedRecording : public PlayedWorld {
   PlayedRecording(const std::string& path, btConstraintSolver* solver)
       : frame_(cli::LoadRowProblem(path), solver) {}
   bench::World& world() override { return frame_.world(); }
-  void Step(int, int) override {}
+  void Step(int) override {}
   bool has_own_steps() const override { return true; }
   cli::FrameWorld* recorded() override { return &frame_; }
 

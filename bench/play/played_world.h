@@ -15,8 +15,8 @@ class PlayedWorld {
   virtual ~PlayedWorld() = default;
   virtual bench::World& world() = 0;
   const bench::World& world() const { return const_cast<PlayedWorld*>(this)->world(); }
-  /// Frame number `frame` from the start, in so many parts.
-  virtual void Step(int frame, int parts) = 0;
+  /// The next frame, in so many parts.
+  virtual void Step(int parts) = 0;
   /// Whether length and parts of steps are its own.
   virtual bool has_own_steps() const { return false; }
   /// What the world is made of, if that is a recording: it does not move.

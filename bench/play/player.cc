@@ -95,7 +95,7 @@ void Player::Step(std::optional<std::chrono::nanoseconds> budget) {
   for (int i = 0; i < objects.size(); ++i) before_.push_back(objects[i]->getWorldTransform());
 
   const auto begin = std::chrono::steady_clock::now();
-  played_->Step(frame_, substeps_ * entry_->parts);
+  played_->Step(substeps_ * entry_->parts);
   Take(std::chrono::steady_clock::now() - begin);
   if (writer_.asked()) {
     const std::string fault = writer_.Take();

@@ -7,15 +7,18 @@
 
 namespace cairn::cli {
 
-SceneRun::SceneRun(const SceneChoice& choice, btConstraintSolver* driver)
-    : instrumented_(driver), world_(&instrumented_), scene_(bench::Make(*choice.info)) {
+BuiltScene::BuiltScene(const SceneChoice& choice, btConstraintSolver* solver)
+    : world_(solver), choice_(choice), scene_(choice.make()) {
   scene_->Build(&world_, {.size = choice.size, .seed = choice.seed});
 }
 
-void SceneRun::Step() {
+void BuiltScene::Step(int parts) {
   scene_->BeforeStep(&world_, frame_++);
-  world_.Step();
+  world_.Step(parts);
 }
+
+SceneRun::SceneRun(const SceneChoice& choice, btConstraintSolver* driver)
+    : instrumented_(driver), scene_(choice, &instrumented_) {}
 
 void SceneRun::Skip(int frames) {
   for (int i = 0; i < frames; ++i) Step();

@@ -13,27 +13,44 @@
 
 namespace cairn::cli {
 
-/// A scene that a solver drives, frame by frame.
+/// A scene in a world of its own, frame by frame.
+class BuiltScene {
+ public:
+  /// @param solver  is not owned
+  BuiltScene(const SceneChoice& choice, btConstraintSolver* solver);
+
+  /// @param parts  that Bullet takes the step in
+  void Step(int parts = 1);
+
+  int frame() const { return frame_; }  ///< Steps made.
+  bench::World& world() { return world_; }
+
+ private:
+  bench::World world_;
+  SceneChoice choice_;  ///< What the scene was made from lives as long as it does.
+  std::unique_ptr<bench::Scene> scene_;
+  int frame_ = 0;
+};
+
+/// A scene that a solver drives, timed.
 class SceneRun {
  public:
   /// @param driver  is not owned
   SceneRun(const SceneChoice& choice, btConstraintSolver* driver);
 
-  void Step();
+  void Step() { scene_.Step(); }
   void Skip(int frames);
   /// Makes a step, but shows its state first.
   void StepAfter(bench::InstrumentedSolver::Probe probe);
 
-  int frame() const { return frame_; }  ///< Steps made.
-  bench::World& world() { return world_; }
+  int frame() const { return scene_.frame(); }  ///< Steps made.
+  bench::World& world() { return scene_.world(); }
   /// See bench::InstrumentedSolver.
   std::chrono::nanoseconds TakeTime() { return instrumented_.TakeTime(); }
 
  private:
   bench::InstrumentedSolver instrumented_;
-  bench::World world_;
-  std::unique_ptr<bench::Scene> scene_;
-  int frame_ = 0;
+  BuiltScene scene_;
 };
 
 /// A scene under Bullet's stock solver, whose states others are given: all islands as one problem.

@@ -9,6 +9,7 @@
 
 #include "play/session.h"
 #include "run/imported_scene.h"
+#include "run/scene_run.h"
 #include "scenes/facts.h"
 #include "scenes/scene.h"
 #include "support/failure.h"
@@ -56,6 +57,18 @@ TEST(Import, BringsBackBodiesJointsAndGravity) {
   for (const btRigidBody* body : world.dynamic_bodies()) {
     EXPECT_TRUE(std::isfinite(body->getCenterOfMassPosition().length2()));
   }
+}
+
+TEST(Import, IsDrivenFrameByFrameLikeAnyScene) {
+  btSequentialImpulseConstraintSolver solver;
+  bench::World saved(&solver);
+  bench::Make(*bench::FindScene("tower"))->Build(&saved, {.size = 3});
+  Save(&saved, PathOf("driven.bullet"));
+
+  StateRun run(ImportScene(PathOf("driven.bullet"), 0));
+  run.Skip(5);
+  EXPECT_EQ(run.Record().bodies.size(), 4) << "three boxes, and the ground";
+  EXPECT_EQ(run.frame(), 6);
 }
 
 TEST(Import, LeavesTheSolverSettingsOfTheScenes) {
