@@ -101,6 +101,12 @@ std::string FormatNumber(double value) {
   return fmt::format("{:.{}f}", value, decimals);
 }
 
+std::string FormatCount(std::int64_t count) { return count == 0 ? "-" : fmt::format("{}", count); }
+
+std::string FormatCell(double value) {
+  return std::isnan(value) ? "" : fmt::format("{:.6g}", value);
+}
+
 std::string FormatTime(double milliseconds) {
   if (std::isnan(milliseconds)) return "-";
   return fmt::format("{:.{}f}", milliseconds, milliseconds < 10 ? 3 : milliseconds < 100 ? 2 : 1);

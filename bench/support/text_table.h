@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ TextTable TableOf(std::vector<std::string> columns);
 
 /// Three digits: "0.0312", "12.4", "3.1e-06"; "-" for NaN.
 std::string FormatNumber(double value);
+/// "-" for 0.
+std::string FormatCount(std::int64_t count);
+/// A cell of a CSV file: six digits; empty for NaN.
+std::string FormatCell(double value);
 /// A time [ms] to the microsecond where it is short.
 std::string FormatTime(double milliseconds);
 

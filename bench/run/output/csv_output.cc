@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {
-
-std::string Cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
 
 double VelocityError(const SceneResult& scene, const SolverResult& solver, int frame) {
   for (size_t i = 0; i < scene.samples.size() && i < solver.velocity_errors.size(); ++i) {
@@ -28,8 +26,8 @@ std::string ToCsv(const RunResult& run) {
       for (int i = 0; i < static_cast<int>(solver.frames.size()); ++i) {
         const Frame& frame = solver.frames[i];
         text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", scene.name, scene.size,
-                            scene.seed, solver.label, i, Cell(frame.time), frame.iterations,
-                            Cell(frame.residual), Cell(VelocityError(scene, solver, i)),
+                            scene.seed, solver.label, i, FormatCell(frame.time), frame.iterations,
+                            FormatCell(frame.residual), FormatCell(VelocityError(scene, solver, i)),
                             frame.steps_accepted, frame.steps_restored, frame.factorisations,
                             frame.guarded);
       }

@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "support/text_table.h"
 
 namespace cairn::cli {
 namespace {
-
-std::string Cell(double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
 
 /// A reason may hold commas and quotes.
 std::string Quoted(const std::string& text) {
@@ -19,19 +17,20 @@ std::string Quoted(const std::string& text) {
 
 std::string LevelCells(const LevelReached& level) {
   if (!level.first) return ",,,";
-  return fmt::format(",{},{},{}", Cell(level.first->time), level.first->sweeps,
+  return fmt::format(",{},{},{}", FormatCell(level.first->time), level.first->sweeps,
                      level.first->factorisations);
 }
 
 std::string Line(const ProblemResult& problem, const LcpSolverResult& solver,
                  const std::vector<double>& errors) {
-  std::string line = fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", problem.name, problem.size,
-      problem.nonzeros, problem.free_rows, problem.steps, solver.label, solver.failure ? 0 : 1,
-      Cell(solver.time), Cell(solver.nested_time), solver.sweeps, solver.factorisations,
-      solver.analyses, solver.factor_nonzeros,
-      Cell(problem.rows ? solver.residual.max : solver.residual.relative), Cell(solver.error),
-      Cell(solver.energy_error), problem.truth_name, problem.rows ? "m/s" : "relative");
+  std::string line =
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", problem.name,
+                  problem.size, problem.nonzeros, problem.free_rows, problem.steps, solver.label,
+                  solver.failure ? 0 : 1, FormatCell(solver.time), FormatCell(solver.nested_time),
+                  solver.sweeps, solver.factorisations, solver.analyses, solver.factor_nonzeros,
+                  FormatCell(problem.rows ? solver.residual.max : solver.residual.relative),
+                  FormatCell(solver.error), FormatCell(solver.energy_error), problem.truth_name,
+                  problem.rows ? "m/s" : "relative");
   for (size_t i = 0; i < errors.size(); ++i) {
     line += i < solver.levels.size() ? LevelCells(solver.levels[i]) : ",,,";
   }
@@ -62,8 +61,9 @@ std::string HistoryToCsv(const SolveResult& result) {
     for (const LcpSolverResult& solver : problem.solvers) {
       for (const HistoryPoint& point : solver.history) {
         text += fmt::format("{},{},{},{},{},{},{},{}\n", problem.name, solver.label,
-                            Cell(point.time), point.sweeps, point.factorisations, Cell(point.error),
-                            Cell(point.energy_error), Cell(point.residual));
+                            FormatCell(point.time), point.sweeps, point.factorisations,
+                            FormatCell(point.error), FormatCell(point.energy_error),
+                            FormatCell(point.residual));
       }
     }
   }

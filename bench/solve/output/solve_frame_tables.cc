@@ -5,37 +5,12 @@
 
 #include <algorithm>
 
-#include "support/text_table.h"
+#include "solve/output/solve_columns.h"
 
 namespace cairn::cli {
 namespace {
 
 constexpr double kTimes[] = {0.05, 0.1, 0.2, 0.5, 1, 2, 4, 8, 16, 33, 100, 1000, 10000};
-
-TextTable NamedTable(const SolveResult& result) {
-  TextTable table;
-  if (result.problems.size() > 1) table.columns.push_back({"frame", ""});
-  table.columns.push_back({"solver", ""});
-  table.names = table.columns.size();
-  return table;
-}
-
-/// A row for each frame and solver; `cells` appends what is behind the names.
-template <class Cells>
-void AddRows(const SolveResult& result, TextTable* table, const Cells& cells) {
-  for (const ProblemResult& problem : result.problems) {
-    if (!problem.rows) continue;
-    for (const LcpSolverResult& solver : problem.solvers) {
-      std::vector<std::string> row;
-      if (result.problems.size() > 1) row.push_back(problem.name);
-      row.push_back(solver.label);
-      cells(problem, solver, &row);
-      table->rows.push_back(std::move(row));
-    }
-  }
-}
-
-std::string Count(std::int64_t count) { return count == 0 ? "-" : fmt::format("{}", count); }
 
 std::string Steps(const LcpSolverResult& solver) {
   if (solver.steps_accepted + solver.steps_restored == 0) return "-";
@@ -47,26 +22,21 @@ std::string Ended(const LcpSolverResult& solver) {
   return fmt::format("NOT: {}", solver.stop);
 }
 
-bool AnyReference(const SolveResult& result) {
-  return std::any_of(result.problems.begin(), result.problems.end(), [](const auto& problem) {
-    return problem.rows && problem.truth != ErrorMeter::Truth::kNone;
-  });
-}
-
 /// What was measured at kTimes of every solver.
 TextTable TimeTable(const SolveResult& result, const char* what, double HistoryPoint::*value) {
-  TextTable table = NamedTable(result);
+  TextTable table = NamedTable(result, ProblemKind::kFrame);
   const std::vector<double> times = TimesOfErrors(result);
   for (const double time : times) {
     table.columns.push_back({fmt::format("{:g} ms", time), what});
   }
   if (times.empty()) return table;
-  AddRows(result, &table, [&](const ProblemResult&, const LcpSolverResult& solver, auto* row) {
-    for (const double time : times) {
-      const HistoryPoint* const point = PointAt(solver, time);
-      row->push_back(point == nullptr ? "-" : FormatNumber(point->*value));
-    }
-  });
+  AddRows(result, ProblemKind::kFrame, &table,
+          [&](const ProblemResult&, const LcpSolverResult& solver, auto* row) {
+            for (const double time : times) {
+              const HistoryPoint* const point = PointAt(solver, time);
+              row->push_back(point == nullptr ? "-" : FormatNumber(point->*value));
+            }
+          });
   return table;
 }
 
@@ -139,8 +109,8 @@ std::string FrameHeading(const ProblemResult& problem) {
 }
 
 TextTable FrameWorkTable(const SolveResult& result) {
-  const bool errors = AnyReference(result);
-  TextTable table = NamedTable(result);
+  const bool errors = AnyErrors(result, ProblemKind::kFrame);
+  TextTable table = NamedTable(result, ProblemKind::kFrame);
   table.columns.push_back({"time", "ms"});
   table.columns.push_back({"prepared", "ms"});
   for (const char* name : {"sweeps", "factorised"}) table.columns.push_back({name, ""});
@@ -152,45 +122,42 @@ TextTable FrameWorkTable(const SolveResult& result) {
     table.columns.push_back({"of", ""});
   }
   table.columns.push_back({"end", ""});
-  AddRows(result, &table,
+  AddRows(result, ProblemKind::kFrame, &table,
           [errors](const ProblemResult& problem, const LcpSolverResult& solver, auto* row) {
             row->push_back(FormatTime(solver.time));
             row->push_back(FormatTime(solver.prepare_time));
-            row->push_back(Count(solver.sweeps));
-            row->push_back(Count(solver.factorisations));
+            row->push_back(FormatCount(solver.sweeps));
+            row->push_back(FormatCount(solver.factorisations));
             row->push_back(Steps(solver));
             row->push_back(FormatNumber(solver.residual.max));
-            if (errors) {
-              row->push_back(FormatNumber(solver.error));
-              row->push_back(FormatNumber(solver.energy_error));
-              row->push_back(problem.truth_name);
-            }
+            if (errors) AddErrorCells(problem, solver, row);
             row->push_back(Ended(solver));
           });
   return table;
 }
 
 TextTable FrameLevelTable(const SolveResult& result) {
-  TextTable table = NamedTable(result);
+  TextTable table = NamedTable(result, ProblemKind::kFrame);
   if (result.errors.empty()) return table;
   for (const char* of : {"error", "residual"}) {
     for (const double level : result.errors) {
       table.columns.push_back({fmt::format("{} {:g}", of, level), "ms"});
     }
   }
-  AddRows(result, &table, [&](const ProblemResult&, const LcpSolverResult& solver, auto* row) {
-    for (const auto* levels : {&solver.levels, &solver.residual_levels}) {
-      for (size_t i = 0; i < result.errors.size(); ++i) {
-        const bool reached = i < levels->size() && (*levels)[i].first;
-        row->push_back(reached ? FormatTime((*levels)[i].first->time) : "-");
-      }
-    }
-  });
+  AddRows(result, ProblemKind::kFrame, &table,
+          [&](const ProblemResult&, const LcpSolverResult& solver, auto* row) {
+            for (const auto* levels : {&solver.levels, &solver.residual_levels}) {
+              for (size_t i = 0; i < result.errors.size(); ++i) {
+                const bool reached = i < levels->size() && (*levels)[i].first;
+                row->push_back(reached ? FormatTime((*levels)[i].first->time) : "-");
+              }
+            }
+          });
   return table;
 }
 
 TextTable FrameErrorTable(const SolveResult& result) {
-  if (!AnyReference(result)) return {};
+  if (!AnyErrors(result, ProblemKind::kFrame)) return {};
   return TimeTable(result, "error, m/s", &HistoryPoint::error);
 }
 
@@ -207,7 +174,7 @@ std::string FrameReadingHelp(const SolveResult& result) {
       "the memory of the solver, before time begins. residual: natural, of the row that is "
       "furthest\n"
       "from its law.\n";
-  if (AnyReference(result)) {
+  if (AnyErrors(result, ProblemKind::kFrame)) {
     help +=
         "error: of velocities against the reference, the centre of mass that is furthest off; rms: "
         "of all\nmomenta. error 0.1, residual 0.1: the first time they were that small. 1 ms and "

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "solve/output/solve_columns.h"
 #include "solve/output/solve_frame_tables.h"
 #include "support/duration.h"
 #include "support/phase_names.h"
@@ -23,31 +24,10 @@ constexpr double kUsableReference = 1e-8;
 
 bool IsSingle(const SolveResult& result) { return result.problems.size() == 1; }
 
-/// The columns that say which problem and solver a row is about.
-void AddNameColumns(const SolveResult& result, TextTable* table) {
-  if (!IsSingle(result)) table->columns.push_back({"problem", ""});
-  table->columns.push_back({"solver", ""});
-  table->names = table->columns.size();
-}
-
-std::vector<std::string> NameCells(const SolveResult& result, const ProblemResult& problem,
-                                   const LcpSolverResult& solver) {
-  if (IsSingle(result)) return {solver.label};
-  return {problem.name, solver.label};
-}
-
-std::string Count(std::int64_t count) { return count == 0 ? "-" : fmt::format("{}", count); }
-
 /// "340", or "15 + 3" with factorisations.
 std::string EffortText(const HistoryPoint& point) {
   if (point.factorisations == 0) return fmt::format("{}", point.sweeps);
   return fmt::format("{} + {}", point.sweeps, point.factorisations);
-}
-
-bool AnyErrors(const SolveResult& result) {
-  return std::any_of(result.problems.begin(), result.problems.end(), [](const auto& problem) {
-    return !problem.rows && problem.truth != ErrorMeter::Truth::kNone;
-  });
 }
 
 std::string Ended(const LcpSolverResult& solver) {
@@ -115,7 +95,7 @@ std::string MatrixReadingHelp(const SolveResult& result) {
       result.clock == SolverClock::kThreadCpu ? "CPU time" : "wall-clock time",
       result.repeat > 1 ? fmt::format(", median of {}", result.repeat) : "",
       result.options.tolerance);
-  if (AnyErrors(result)) {
+  if (AnyErrors(result, ProblemKind::kMatrix)) {
     help +=
         "error: of x: |x - x*| / |x*|; of w: |w - w*| / |q|; of best: as x, x* being the best "
         "found here.\n"
@@ -140,9 +120,8 @@ std::string MatrixReadingHelp(const SolveResult& result) {
 
 TextTable WorkTable(const SolveResult& result) {
   const bool nested = result.start == StartRule::kNested;
-  const bool errors = AnyErrors(result);
-  TextTable table;
-  AddNameColumns(result, &table);
+  const bool errors = AnyErrors(result, ProblemKind::kMatrix);
+  TextTable table = NamedTable(result, ProblemKind::kMatrix);
   table.columns.push_back({"time", "ms"});
   if (nested) table.columns.push_back({"of it coarse", "ms"});
   for (const char* name : {"sweeps", "factorised", "nz(L)"}) table.columns.push_back({name, ""});
@@ -153,31 +132,22 @@ TextTable WorkTable(const SolveResult& result) {
     table.columns.push_back({"of", ""});
   }
   table.columns.push_back({"end", ""});
-  for (const ProblemResult& problem : result.problems) {
-    if (problem.rows) continue;
-    for (const LcpSolverResult& solver : problem.solvers) {
-      std::vector<std::string> row = NameCells(result, problem, solver);
-      row.push_back(FormatTime(solver.time));
-      if (nested) row.push_back(FormatTime(solver.nested_time));
-      row.push_back(Count(solver.sweeps));
-      row.push_back(Count(solver.factorisations));
-      row.push_back(Count(solver.factor_nonzeros));
-      row.push_back(FormatNumber(solver.residual.relative));
-      if (errors) {
-        row.push_back(FormatNumber(solver.error));
-        row.push_back(FormatNumber(solver.energy_error));
-        row.push_back(problem.truth_name);
-      }
-      row.push_back(Ended(solver));
-      table.rows.push_back(std::move(row));
-    }
-  }
+  AddRows(result, ProblemKind::kMatrix, &table,
+          [=](const ProblemResult& problem, const LcpSolverResult& solver, auto* row) {
+            row->push_back(FormatTime(solver.time));
+            if (nested) row->push_back(FormatTime(solver.nested_time));
+            row->push_back(FormatCount(solver.sweeps));
+            row->push_back(FormatCount(solver.factorisations));
+            row->push_back(FormatCount(solver.factor_nonzeros));
+            row->push_back(FormatNumber(solver.residual.relative));
+            if (errors) AddErrorCells(problem, solver, row);
+            row->push_back(Ended(solver));
+          });
   return table;
 }
 
 TextTable ErrorTable(const SolveResult& result) {
-  TextTable table;
-  AddNameColumns(result, &table);
+  TextTable table = NamedTable(result, ProblemKind::kMatrix);
   for (const double level : result.errors) {
     table.columns.push_back({fmt::format("to {:g}", level), "ms"});
     table.columns.push_back({"sweeps", "+ factorised"});
@@ -197,8 +167,7 @@ TextTable ErrorTable(const SolveResult& result) {
 }
 
 TextTable AnswerTable(const SolveResult& result) {
-  TextTable table;
-  AddNameColumns(result, &table);
+  TextTable table = NamedTable(result, ProblemKind::kMatrix);
   table.columns.push_back({"answer", ""});
   table.names = table.columns.size();
   for (const char* name : {"value", "expected", "difference", "allowed", ""}) {
@@ -222,20 +191,15 @@ TextTable AnswerTable(const SolveResult& result) {
 }
 
 TextTable PhaseTable(const SolveResult& result) {
-  TextTable table;
-  if (!result.options.phases) return table;
-  AddNameColumns(result, &table);
+  if (!result.options.phases) return {};
+  TextTable table = NamedTable(result, ProblemKind::kMatrix);
   for (const auto& [name, phase] : kPhases) table.columns.push_back({name, "ms"});
-  for (const ProblemResult& problem : result.problems) {
-    if (problem.rows) continue;
-    for (const LcpSolverResult& solver : problem.solvers) {
-      std::vector<std::string> row = NameCells(result, problem, solver);
-      for (const auto& [name, phase] : kPhases) {
-        row.push_back(FormatTime(Milliseconds(solver.phases.*phase)));
-      }
-      table.rows.push_back(std::move(row));
-    }
-  }
+  AddRows(result, ProblemKind::kMatrix, &table,
+          [](const ProblemResult&, const LcpSolverResult& solver, auto* row) {
+            for (const auto& [name, phase] : kPhases) {
+              row->push_back(FormatTime(Milliseconds(solver.phases.*phase)));
+            }
+          });
   return table;
 }
 
