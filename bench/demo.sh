@@ -2,23 +2,14 @@
 # Shoots at the castle in a real Bullet world: Bullet's own solvers and Cairn under the same budget per frame.
 set -euo pipefail
 
-usage() {
-  cat <<'TEXT'
+source "$(dirname "${BASH_SOURCE[0]}")/usage.sh" "$@" <<'TEXT'
 usage: bash bench/demo.sh [OPTIONS OF cairn run...]
 
 Options are added to those below, for example:  bash bench/demo.sh --size 2 --seed 7
 Environment: BUDGET (16ms, a frame at 60 Hz) for each solver, FRAMES (300).
 TEXT
-}
 
-case "${1:-}" in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-esac
-
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$root"
 budget="${BUDGET:-16ms}"
 frames="${FRAMES:-300}"
 

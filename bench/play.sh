@@ -2,22 +2,13 @@
 # Installs what the window needs, builds it, and opens it: worlds side by side, Bullet and Cairn.
 set -euo pipefail
 
-usage() {
-  cat <<'TEXT'
+source "$(dirname "${BASH_SOURCE[0]}")/usage.sh" "$@" <<'TEXT'
 usage: bash bench/play.sh [SCENE] [OPTIONS OF cairn play...]
 
 For example:  bash bench/play.sh bridge
               bash bench/play.sh castle --frames 120 --screenshot castle.png
 Without a screen it draws on one that nobody sees (Xvfb, with OpenGL in software).
 TEXT
-}
-
-case "${1:-}" in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-esac
 
 under=()
 if [[ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]]; then
@@ -28,10 +19,9 @@ if [[ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]]; then
   under=(xvfb-run -a -s "-screen 0 1920x1200x24")
 fi
 
-here="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
-bash "$here/bench/build-tool.sh" build play import
-cmake --build "$here/build/release" -j "$(nproc)" --target cairn_play_window
+bash "$root/bench/build-tool.sh" build play import
+cmake --build "$root/build/release" -j "$(nproc)" --target cairn_play_window
 
-play=("$here/build/release/bin/cairn" play "$@")
+play=("$root/build/release/bin/cairn" play "$@")
 echo "== ${play[*]##*/}"
 exec "${under[@]}" "${play[@]}"

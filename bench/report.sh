@@ -2,24 +2,15 @@
 # The full report: scenes under budgets of 0.5, 2, 4 and 16 ms, a page for each, and the table of the README.
 set -euo pipefail
 
-usage() {
-  cat <<'TEXT'
+source "$(dirname "${BASH_SOURCE[0]}")/usage.sh" "$@" <<'TEXT'
 usage: bash bench/report.sh [OPTIONS OF cairn run...]
 
 Writes out/report-BUDGET.html, .json and .md, and out/readme_table.md. Under ten minutes on two quiet cores.
 Options are added to those below, for example:  bash bench/report.sh --frames 60
 Environment: BUDGETS (0.5ms 2ms 4ms 16ms), SCENES (the twelve that are not small, or all), SOLVERS (bullet-si,bullet-si@fit,cairn).
 TEXT
-}
 
-case "${1:-}" in
-  -h | --help)
-    usage
-    exit 0
-    ;;
-esac
-
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+cd "$root"
 read -ra budgets <<<"${BUDGETS:-0.5ms 2ms 4ms 16ms}"
 read -ra scenes <<<"${SCENES:-castle pyramid pyramid3d wall tower heavy-top bridge two-pin-bridge chain ragdolls rubble islands}"
 solvers="${SOLVERS:-bullet-si,bullet-si@fit,cairn}"

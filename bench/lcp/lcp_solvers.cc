@@ -2,7 +2,6 @@
 #include "lcp/lcp_solvers.h"
 
 #include "lcp/cairn_lcp_solver.h"
-#include "lcp/siconos_solvers.h"
 
 namespace cairn::cli {
 namespace {

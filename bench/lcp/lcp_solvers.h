@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lcp/lcp_solver.h"
 
@@ -18,5 +19,9 @@ struct LcpSolverEntry {
 };
 
 std::span<const LcpSolverEntry> LcpSolvers();
+
+/// The solvers of Siconos Numerics for linear complementarity problems, called `siconos-...`. Their
+/// `make` is empty where this tool was built without Siconos, and their description says so.
+std::vector<LcpSolverEntry> SiconosSolvers();
 
 }  // namespace cairn::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Stands in for siconos_solvers.cc where Siconos is not installed.
+// Stands in for siconos_lcp_solver.cc where Siconos is not installed.
+#include "lcp/lcp_solvers.h"
 #include "lcp/siconos_method.h"
-#include "lcp/siconos_solvers.h"
 
 namespace cairn::cli {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "lcp/lcp_solvers.h"
 #include "lcp/siconos_call.h"
 #include "lcp/siconos_form.h"
 
@@ -63,6 +64,16 @@ int SiconosLcpSolver::MaxIterations(Eigen::Index rows) const {
   if (method_.stop != SiconosStop::kEnd) return method_.max_iterations;
   constexpr Eigen::Index kMost = std::numeric_limits<int>::max();
   return static_cast<int>(std::min(kMost, method_.max_iterations * rows));
+}
+
+std::vector<LcpSolverEntry> SiconosSolvers() {
+  std::vector<LcpSolverEntry> entries;
+  for (const SiconosMethod& method : SiconosMethods()) {
+    entries.push_back({method.name, method.description, [&method](const LcpOptions& options) {
+                         return std::make_unique<SiconosLcpSolver>(method, options);
+                       }});
+  }
+  return entries;
 }
 
 }  // namespace cairn::cli
