@@ -11,18 +11,7 @@
 namespace cairn::accuracy {
 namespace {
 
-/// Adds the CPU time of its life to a sum [ms].
-class Stopwatch {
- public:
-  explicit Stopwatch(double* sum) : sum_(sum) {}
-  ~Stopwatch() { *sum_ += cli::Now(cli::SolverClock::kThreadCpu) - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double* sum_;
-  double start_ = cli::Now(cli::SolverClock::kThreadCpu);
-};
+constexpr cli::SolverClock kClock = cli::SolverClock::kThreadCpu;
 
 bool Moves(const Body& body) { return body.inv_mass > 0 || !View(body.inv_inertia).isZero(0); }
 
@@ -57,7 +46,7 @@ class BulletTrial::Solver : public bench::RowRecorder {
                                         btTypedConstraint** constraints, int num_constraints,
                                         const btContactSolverInfo& info,
                                         btIDebugDraw* debug_drawer) override {
-    const Stopwatch stopwatch(&time_.set_up);
+    const cli::SummedTime summed(kClock, &time_.set_up);
     return RowRecorder::solveGroupCacheFriendlySetup(bodies, num_bodies, manifolds, num_manifolds,
                                                      constraints, num_constraints, info,
                                                      debug_drawer);
@@ -75,7 +64,7 @@ class BulletTrial::Solver : public bench::RowRecorder {
       if (!follower_(0, rows_.velocities())) return 0;
     }
     {
-      const Stopwatch stopwatch(&time_.iterations);
+      const cli::SummedTime summed(kClock, &time_.iterations);
       RowRecorder::solveGroupCacheFriendlyIterations(bodies, num_bodies, manifolds, num_manifolds,
                                                      constraints, num_constraints, info,
                                                      debug_drawer);
@@ -89,7 +78,7 @@ class BulletTrial::Solver : public bench::RowRecorder {
       int num_manifolds, btTypedConstraint** constraints, int num_constraints,
       const btContactSolverInfo& info, btIDebugDraw* debug_drawer) override {
     if (follower_) return;
-    const Stopwatch stopwatch(&time_.split);
+    const cli::SummedTime summed(kClock, &time_.split);
     RowRecorder::solveGroupCacheFriendlySplitImpulseIterations(bodies, num_bodies, manifolds,
                                                                num_manifolds, constraints,
                                                                num_constraints, info, debug_drawer);
@@ -111,7 +100,7 @@ class BulletTrial::Solver : public bench::RowRecorder {
 
   btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int num_bodies,
                                          const btContactSolverInfo& info) override {
-    const Stopwatch stopwatch(&time_.finish);
+    const cli::SummedTime summed(kClock, &time_.finish);
     return RowRecorder::solveGroupCacheFriendlyFinish(bodies, num_bodies, info);
   }
 

@@ -8,15 +8,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "support/duration.h"
+
 namespace cairn::accuracy {
-namespace {
-
-double Milliseconds(std::chrono::nanoseconds time) {
-  return 1e-6 * static_cast<double>(time.count());
-}
-
-}  // namespace
-
 const char* NameOf(Kind kind) {
   switch (kind) {
     case Kind::kSweeps:
@@ -62,11 +56,11 @@ ShadowFrame Shadow::Describe() const {
   const ContactProblem problem = solver_.problem();
   return {.budget = 0,
           .time = {},
-          .build = Milliseconds(times.build),
-          .solve = Milliseconds(times.solve),
-          .write = Milliseconds(times.write),
-          .step_predicted = Milliseconds(report.step_predicted),
-          .step_time = Milliseconds(report.step_time),
+          .build = cli::Milliseconds(times.build),
+          .solve = cli::Milliseconds(times.solve),
+          .write = cli::Milliseconds(times.write),
+          .step_predicted = cli::Milliseconds(report.step_predicted),
+          .step_time = cli::Milliseconds(report.step_time),
           .residual_max = report.residual_max,
           .sweeps = report.sweeps,
           .factorisations = report.factorisations,

@@ -3,36 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 
-#include "simd/target.h"
+#include "support/machine/setup.h"
 #include "support/output_file.h"
 #include "worlds/shrink.h"
 
 namespace cairn::cli {
 namespace {
-
-/// Sets CAIRN_SIMD, and puts it back.
-class ScopedTarget {
- public:
-  ScopedTarget() {
-    if (const char* asked = std::getenv("CAIRN_SIMD")) before_ = asked;
-  }
-  ~ScopedTarget() {
-    before_.empty() ? unsetenv("CAIRN_SIMD") : setenv("CAIRN_SIMD", before_.c_str(), 1);
-  }
-  ScopedTarget(const ScopedTarget&) = delete;
-  ScopedTarget& operator=(const ScopedTarget&) = delete;
-
-  /// What solvers that are made from now on read.
-  void Set(simd::Target target) {
-    setenv("CAIRN_SIMD", std::string(simd::TargetName(target)).c_str(), 1);
-  }
-
- private:
-  std::string before_;
-};
 
 std::string ShrinkOne(const bench::CampaignOptions& options, const bench::WorldResult& result,
                       size_t variant, const std::string& folder) {
@@ -57,9 +35,8 @@ std::string ShrinkOne(const bench::CampaignOptions& options, const bench::WorldR
 
 void CheckBits(const bench::CampaignOptions& options, std::vector<bench::WorldResult>* results) {
   bench::CampaignOptions again = options;
-  ScopedTarget target;
   for (const simd::Target other : simd::SupportedTargets()) {
-    target.Set(other);
+    const ForcedTarget forced(other);
     bench::CompareBits(again, results);
   }
   for (const int threads : {2, 3}) {

@@ -6,6 +6,7 @@
 
 #include "measure/reference.h"
 #include "support/duration.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::cli {
 namespace {
@@ -40,9 +41,9 @@ double EffortLadder::Solve(const Rung& rung, bench::Substep* substep) const {
   btContactSolverInfo info = defaults_;
   rung.contestant->Begin(rung.effort, &info);
   substep->Restore();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch(SolverClock::kWall);
   substep->SolveWith(rung.contestant->solver(), info, nullptr);
-  return Milliseconds(std::chrono::steady_clock::now() - start);
+  return stopwatch.Read();
 }
 
 void EffortLadder::Build(bench::Substep* substep) {

@@ -2,47 +2,22 @@
 #include "effort/scaling.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdlib>
 #include <memory>
-#include <optional>
 #include <thread>
 
 #include "cairn/solver.h"
 #include "simd/target.h"
+#include "support/machine/setup.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
 
 namespace cairn::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kSweeps = 10;
 /// All ways in turn so often, unless that takes too long.
 constexpr int kMostRounds = 15, kLeastRounds = 3;
-constexpr std::chrono::seconds kLongest{2};
-
-/// Solvers that are made while it lives use this instruction set.
-class ForcedTarget {
- public:
-  explicit ForcedTarget(simd::Target target) {
-    if (const char* const before = std::getenv(kVariable)) before_ = before;
-    setenv(kVariable, std::string(simd::TargetName(target)).c_str(), 1);
-  }
-  ~ForcedTarget() {
-    if (before_) {
-      setenv(kVariable, before_->c_str(), 1);
-    } else {
-      unsetenv(kVariable);
-    }
-  }
-  ForcedTarget(const ForcedTarget&) = delete;
-  ForcedTarget& operator=(const ForcedTarget&) = delete;
-
- private:
-  static constexpr const char* kVariable = "CAIRN_SIMD";
-  std::optional<std::string> before_;
-};
+constexpr double kLongest = 2000;  // [ms]
 
 Settings TenSweeps(int threads) {
   Settings settings;
@@ -68,9 +43,9 @@ class TimedSolver {
   }
 
   void Time() {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch(SolverClock::kWall);
     Solve();
-    times_.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    times_.push_back(stopwatch.Read());
   }
   double Median() const { return cli::Median(times_); }
 
@@ -115,9 +90,9 @@ Scaling MeasureScaling(const ContactProblem& problem) {
     targets.push_back(std::make_unique<TimedSolver>(problem, target, 1));
   }
 
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch(SolverClock::kWall);
   for (int round = 0; round < kMostRounds; ++round) {
-    if (round >= kLeastRounds && Clock::now() - start > kLongest) break;
+    if (round >= kLeastRounds && stopwatch.Read() > kLongest) break;
     for (const auto& solver : threads) solver->Time();
     for (const auto& solver : targets) solver->Time();
   }

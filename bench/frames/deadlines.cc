@@ -199,6 +199,19 @@ Tally WaitForTheClock(const DeadlineOptions& options, double budget_ms) {
   return tally;
 }
 
+/// "p50 / p99 / p99.9 / max", or "-" of nothing.
+std::string Spread(std::span<const double> values) {
+  if (values.empty()) return "-";
+  return fmt::format("{:.0f} / {:.0f} / {:.0f} / {:.0f}", Median(values),
+                     cli::Quantile(values, 0.99), cli::Quantile(values, 0.999),
+                     cli::Largest(values));
+}
+
+/// With one digit, or "-" of nothing.
+std::string Percent(double part, double all) {
+  return all > 0 ? fmt::format("{:.1f}", 100 * part / all) : "-";
+}
+
 void AddRow(const std::string& name, double budget_ms, const Tally& tally, cli::TextTable* table) {
   const double all = tally.substeps;
   table->rows.push_back(

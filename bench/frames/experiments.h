@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -75,12 +74,6 @@ void PrintDeadlines(const DeadlineOptions& options, const std::string& command);
 
 /// "pyramid 100"; without a size that is the default.
 std::string NameOf(const SceneChoice& scene);
-
-/// "p50 / p99 / p99.9 / max", or "-" of nothing.
-std::string Spread(std::span<const double> values);
-
-/// With one digit, or "-" of nothing.
-std::string Percent(double part, double all);
 
 /// Plain sweeps, as many as asked: nothing else ends a Solve().
 Settings Sweeps(int count, int threads);

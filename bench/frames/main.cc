@@ -4,7 +4,6 @@
 
 #include <exception>
 #include <map>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/machine/setup.h"
-#include "support/statistics.h"
 
 namespace cairn::frames {
 namespace {
@@ -178,17 +176,6 @@ int Main(int count, char** arguments) {
 }
 
 }  // namespace
-
-std::string Spread(std::span<const double> values) {
-  if (values.empty()) return "-";
-  return fmt::format("{:.0f} / {:.0f} / {:.0f} / {:.0f}", cli::Median(values),
-                     cli::Quantile(values, 0.99), cli::Quantile(values, 0.999),
-                     cli::Largest(values));
-}
-
-std::string Percent(double part, double all) {
-  return all > 0 ? fmt::format("{:.1f}", 100 * part / all) : "-";
-}
 
 std::string NameOf(const SceneChoice& scene) {
   const bool usual = scene.size == scene.info->default_size;

@@ -7,7 +7,6 @@
 #include <cairn/bullet/task_scheduler.h>
 #include <fmt/format.h>
 
-#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -15,19 +14,14 @@
 
 #include "frames/experiments.h"
 #include "support/machine/run_context.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
 #include "support/text_table.h"
 
 namespace cairn::frames {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kIterations = 10;
-
-double Milliseconds(Clock::duration time) {
-  return std::chrono::duration<double, std::milli>(time).count();
-}
 
 /// Boxes of 1 m in some world: a wall that narrows to one box, or so many that fall into a pit.
 class Boxes {
@@ -102,10 +96,10 @@ class Contestant {
   virtual ~Contestant() = default;
   void Step(bool keep) {
     btSetTaskScheduler(&scheduler());
-    const Clock::time_point begin = Clock::now();
+    const cli::Stopwatch stopwatch(cli::SolverClock::kWall);
     world().stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
     if (!keep) return;
-    steps.push_back(Milliseconds(Clock::now() - begin));
+    steps.push_back(stopwatch.Read());
     solvers.push_back(solver_time());
   }
   std::vector<double> steps, solvers;
@@ -125,9 +119,9 @@ class TimedIslands final : public World {
 
  private:
   void solveConstraints(btContactSolverInfo& info) override {
-    const Clock::time_point begin = Clock::now();
+    const cli::Stopwatch stopwatch(cli::SolverClock::kWall);
     World::solveConstraints(info);
-    solver_time_ = Milliseconds(Clock::now() - begin);
+    solver_time_ = stopwatch.Read();
   }
   double solver_time_ = 0;
 };

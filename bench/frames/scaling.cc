@@ -183,8 +183,6 @@ double MedianOf(const std::vector<Forecast>& forecasts, double (*value)(const Fo
   return cli::Median(values);
 }
 
-std::string Milliseconds(double us) { return fmt::format("{:.3f}", us / 1000); }
-
 /// Medians of a kind that anybody would notice.
 std::string SerialParts(const std::vector<Forecast>& forecasts) {
   std::string parts;
@@ -244,16 +242,17 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
           MedianOf(forecasts, [](const Forecast& forecast) { return forecast.all(); });
       if (one == 0) one = predicted * (threads == 1 ? 1 : std::numeric_limits<double>::quiet_NaN());
       const auto median = [&](double (*value)(const Forecast&)) {
-        return Milliseconds(MedianOf(forecasts, value));
+        return cli::FormatTime(1e-3 * MedianOf(forecasts, value));
       };
-      table.rows.push_back(
-          {NameOf(scene), fmt::format("{}", threads),
-           median([](const Forecast& forecast) { return forecast.serial; }),
-           median([](const Forecast& forecast) { return forecast.shared; }),
-           median([](const Forecast& forecast) { return forecast.imbalance; }),
-           median([](const Forecast& forecast) { return forecast.barriers; }),
-           Milliseconds(predicted), can ? Milliseconds(cli::Median(measured)) : "-",
-           std::isnan(one) ? "-" : fmt::format("{:.2f}", one / predicted), SerialParts(forecasts)});
+      table.rows.push_back({NameOf(scene), fmt::format("{}", threads),
+                            median([](const Forecast& forecast) { return forecast.serial; }),
+                            median([](const Forecast& forecast) { return forecast.shared; }),
+                            median([](const Forecast& forecast) { return forecast.imbalance; }),
+                            median([](const Forecast& forecast) { return forecast.barriers; }),
+                            cli::FormatTime(1e-3 * predicted),
+                            can ? cli::FormatTime(1e-3 * cli::Median(measured)) : "-",
+                            std::isnan(one) ? "-" : fmt::format("{:.2f}", one / predicted),
+                            SerialParts(forecasts)});
       if (with_gaps) PrintAlone(alone, forecasts.size(), options.gaps, NameOf(scene));
     }
   }

@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "measure/instrumented_solver.h"
 
+#include <cmath>
+
+#include "support/machine/stopwatch.h"
+
 namespace cairn::bench {
 namespace {
 
-/// Adds the time of its life to a sum.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::chrono::nanoseconds* sum) : sum_(sum) {}
-  ~Stopwatch() { *sum_ += std::chrono::steady_clock::now() - start_; }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  std::chrono::nanoseconds* sum_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
+constexpr cli::SolverClock kClock = cli::SolverClock::kWall;
 
 }  // namespace
+
+std::chrono::nanoseconds InstrumentedSolver::TakeTime() {
+  return std::chrono::nanoseconds(std::llround(1e6 * std::exchange(time_, 0)));
+}
 
 void InstrumentedSolver::prepareSolve(int num_bodies, int num_manifolds) {
   if (probe_) {
     substep_.Begin(num_bodies, num_manifolds);
     return;
   }
-  const Stopwatch stopwatch(&time_);
+  const cli::SummedTime summed(kClock, &time_);
   solver_->prepareSolve(num_bodies, num_manifolds);
 }
 
@@ -40,7 +37,7 @@ btScalar InstrumentedSolver::solveGroup(btCollisionObject** bodies, int num_bodi
                  dispatcher);
     return 0;
   }
-  const Stopwatch stopwatch(&time_);
+  const cli::SummedTime summed(kClock, &time_);
   return solver_->solveGroup(bodies, num_bodies, manifolds, num_manifolds, joints, num_joints, info,
                              debug_drawer, dispatcher);
 }
@@ -50,11 +47,11 @@ void InstrumentedSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw
     substep_.Capture();
     std::exchange(probe_, nullptr)(&substep_, info);
     substep_.Restore();
-    const Stopwatch stopwatch(&time_);
+    const cli::SummedTime summed(kClock, &time_);
     substep_.SolveWith(solver_, info, debug_drawer);
     return;
   }
-  const Stopwatch stopwatch(&time_);
+  const cli::SummedTime summed(kClock, &time_);
   solver_->allSolved(info, debug_drawer);
 }
 

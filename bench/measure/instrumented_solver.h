@@ -25,7 +25,7 @@ class InstrumentedSolver : public btConstraintSolver {
   void ProbeNext(Probe probe) { probe_ = std::move(probe); }
   /// Time inside the solver since the last call, from the first prepareSolve() to the end of
   /// allSolved(); probing and the world's work between groups not counted.
-  std::chrono::nanoseconds TakeTime() { return std::exchange(time_, {}); }
+  std::chrono::nanoseconds TakeTime();
 
   void prepareSolve(int num_bodies, int num_manifolds) override;
   btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,
@@ -40,7 +40,7 @@ class InstrumentedSolver : public btConstraintSolver {
   btConstraintSolver* solver_;
   Probe probe_;
   Substep substep_;
-  std::chrono::nanoseconds time_{0};
+  double time_ = 0;  ///< [ms]
 };
 
 }  // namespace cairn::bench

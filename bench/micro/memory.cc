@@ -7,8 +7,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include "micro/cpu_clock.h"
 #include "simd/stream_read.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::micro {
 namespace {
@@ -21,14 +21,14 @@ double BestBandwidth(simd::Target target, size_t bytes) {
   const std::vector<simd::Line> lines(bytes / sizeof(simd::Line));
   double best = 0;
   for (int i = 0; i < kRepetitions; ++i) {
-    const double start = CpuSeconds();
+    const cli::Stopwatch stopwatch(cli::SolverClock::kThreadCpu);
     double seconds = 0, read = 0;
     while (seconds < kLeastSeconds) {
       for (size_t done = 0; done < kMi; done += bytes) {
         benchmark::DoNotOptimize(simd::StreamRead(target, lines.data(), lines.size()));
         read += static_cast<double>(bytes);
       }
-      seconds = CpuSeconds() - start;
+      seconds = 1e-3 * stopwatch.Read();
     }
     best = std::max(best, read / seconds);
   }

@@ -11,10 +11,10 @@
 #include <benchmark/benchmark.h>
 
 #include "micro/bullet_rows.h"
-#include "micro/cpu_clock.h"
 #include "micro/pair_scene.h"
 #include "micro/row_scene.h"
 #include "simd/stream_read.h"
+#include "support/machine/stopwatch.h"
 
 namespace cairn::micro {
 namespace {
@@ -69,16 +69,16 @@ std::string Path(const std::string& first, const Parts&... parts) {
   return path;
 }
 
-/// CPU time of the loop of a benchmark. The library knows it too, but shows what is counted per
+/// CPU time of the loop of a benchmark [s]. The library knows it too, but shows what is counted per
 /// time as a rate, whatever it is.
 template <class Function>
 double Time(benchmark::State* state, const Function& function) {
-  const double start = CpuSeconds();
+  const cli::Stopwatch stopwatch(cli::SolverClock::kThreadCpu);
   for (auto _ : *state) {
     function();
     benchmark::ClobberMemory();
   }
-  return CpuSeconds() - start;
+  return 1e-3 * stopwatch.Read();
 }
 
 void CountBytes(double bytes, double seconds, const MemoryLevel& level, benchmark::State* state) {

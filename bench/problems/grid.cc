@@ -158,7 +158,7 @@ Answer ObjectiveAnswer(const BoxedLcp& lcp, double expected, double tolerance, s
           .measure = [f](const Eigen::VectorXd& x) { return 0.5 * x.dot(f->m * x) + f->q.dot(x); }};
 }
 
-std::string Digits(double value) {
+std::string ShortestText(double value) {
   char text[32];
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }

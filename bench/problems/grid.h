@@ -66,6 +66,6 @@ Eigen::VectorXd Prolong(const Grid& coarse, const Grid& fine, const Box& box,
 Answer ObjectiveAnswer(const BoxedLcp& lcp, double expected, double tolerance, std::string source);
 
 /// The shortest digits that read back as the same number, for names: 0.1 is "0.1".
-std::string Digits(double value);
+std::string ShortestText(double value);
 
 }  // namespace cairn::problems

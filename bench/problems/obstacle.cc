@@ -142,7 +142,7 @@ Problem MakeTwoSided(int size, Sides sides, double load) {
   Problem problem;
   problem.name = "obstacle-two-sided-" + std::to_string(size);
   if (sides == Sides::kLower) problem.name.append("-lower");
-  if (load != 1) problem.name.append("-c").append(Digits(load));
+  if (load != 1) problem.name.append("-c").append(ShortestText(load));
   problem.source = "Dembo and Tulowitzki 1983, CUTEst " + base;
   problem.lcp.M = FivePointMatrix(grid, Membrane(grid, 0.5));
   problem.lcp.q = Sample(grid, Constant(-load * grid.hx() * grid.hy()));

@@ -37,7 +37,7 @@ Problem Make(int size, double c) {
   const Grid grid = {.nx = size, .ny = size};
   const Box box = TorsionBox();
   Problem problem;
-  problem.name = "torsion-" + std::to_string(size) + "-c" + Digits(c);
+  problem.name = "torsion-" + std::to_string(size) + "-c" + ShortestText(c);
   problem.source = "More and Toraldo 1991, CUTEst TORSION: elastic-plastic torsion of a square bar";
   problem.lcp.M = FivePointMatrix(grid, Membrane(grid, 0.5));
   problem.lcp.q = Sample(grid, Constant(-c * grid.hx() * grid.hy()));

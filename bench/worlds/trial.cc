@@ -2,24 +2,17 @@
 #include "worlds/trial.h"
 
 #include <cairn/bullet/constraint_solver.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "scenes/facts.h"
+#include "support/machine/stopwatch.h"
 #include "worlds/momentum.h"
 
 namespace cairn::bench {
 namespace {
-
-/// Of this thread [s].
-double CpuTime() {
-  timespec now;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 /// Keeps NaN, which every comparison hides.
 void RaiseTo(double value, double* largest) {
@@ -48,10 +41,10 @@ class Run {
   }
 
   Trial Finish() {
-    const double start = CpuTime();
+    const cli::Stopwatch stopwatch(cli::SolverClock::kThreadCpu);
     const int frames = random_.Frames(options_.seconds);
     for (int frame = 0; frame < frames && !hopeless_; ++frame) Step(frame, frames);
-    trial_.cpu_seconds = CpuTime() - start;
+    trial_.cpu_seconds = 1e-3 * stopwatch.Read();
     const World& world = random_.world();
     trial_.bodies = static_cast<int>(world.dynamic_bodies().size());
     trial_.joints = static_cast<int>(world.joints().size());

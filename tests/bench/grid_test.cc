@@ -128,10 +128,10 @@ TEST(ObjectiveAnswer, IsHalfTheQuadraticPlusTheLinearTerm) {
   EXPECT_NEAR(answer.measure(Eigen::Vector2d(3, 4)), -4, 1e-14);
 }
 
-TEST(Digits, AreTheShortestThatReadBack) {
-  EXPECT_EQ(Digits(0.1), "0.1");
-  EXPECT_EQ(Digits(5), "5");
-  EXPECT_EQ(std::stod(Digits(1.0 / 3)), 1.0 / 3);
+TEST(ShortestText, ReadsBack) {
+  EXPECT_EQ(ShortestText(0.1), "0.1");
+  EXPECT_EQ(ShortestText(5), "5");
+  EXPECT_EQ(std::stod(ShortestText(1.0 / 3)), 1.0 / 3);
 }
 
 }  // namespace

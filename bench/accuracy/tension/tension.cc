@@ -5,19 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <utility>
 
 #include "contestants/watched_solver.h"
+#include "support/machine/stopwatch.h"
 #include "support/statistics.h"
 
 namespace cairn::accuracy {
 namespace {
 
 using cli::kNotMeasured;
-
-double CpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 TensionSolver Cairn(std::string name, std::string description, const Settings& settings,
                     const bullet::Options& options = {}, int iterations = 10) {
@@ -124,9 +122,10 @@ TensionRun RunCell(const TensionCell& cell, const TensionSolver& solver,
   const int steps = static_cast<int>(std::lround(options.seconds * cell.rate));
   double cpu = 0;
   for (int step = 0; step < steps; ++step) {
-    const double begin = CpuSeconds();
-    world.Step();
-    cpu += CpuSeconds() - begin;
+    {
+      const cli::SummedTime summed(cli::SolverClock::kThreadCpu, &cpu);
+      world.Step();
+    }
     run.failure = watched.failure();
     if (!run.failure.empty()) {
       run.gap = run.energy_gain = run.spin_change = std::numeric_limits<double>::infinity();
@@ -135,7 +134,7 @@ TensionRun RunCell(const TensionCell& cell, const TensionSolver& solver,
     observer.See(step, &run);
     if (cairn != nullptr) run.steps_taken += cairn->report().steps_accepted;
   }
-  run.cpu_us = 1e6 * cpu / steps;
+  run.cpu_us = 1e3 * cpu / steps;
   run.steps_taken /= steps;
   return run;
 }

@@ -8,7 +8,6 @@
 //
 //     cairn_cholesky --benchmark_enable_random_interleaving=true --benchmark_repetitions=9
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -24,6 +23,7 @@
 #include "micro/cholesky/eigen_cholesky.h"
 #include "micro/cholesky/multiply_add_peak.h"
 #include "simd/target.h"
+#include "support/machine/stopwatch.h"
 #if CAIRN_HAS_CHOLMOD
 #include "micro/cholesky/cholmod_factor.h"
 #endif
@@ -192,9 +192,9 @@ void RegisterPhase(const std::string& name, const std::shared_ptr<Solver>& solve
 /// Seconds of work.
 template <class Function>
 double Time(const Function& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const cli::Stopwatch stopwatch(cli::SolverClock::kWall);
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return 1e-3 * stopwatch.Read();
 }
 
 template <class T>

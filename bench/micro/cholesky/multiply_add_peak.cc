@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "micro/cpu_clock.h"
 #include "simd/target.h"
+#include "support/machine/stopwatch.h"
 
 #if defined(__x86_64__)
 #define CAIRN_WITH(features) __attribute__((target(features)))
@@ -27,7 +27,7 @@ constexpr int kChains = 10;
   double NAME() {                                                             \
     using Vector [[gnu::vector_size(BYTES)]] = T;                             \
     Vector chains[kChains] = {}, a = Vector{} + T(1e-9), b = Vector{} + T(1); \
-    const double start = CpuSeconds();                                        \
+    const cli::Stopwatch stopwatch(cli::SolverClock::kThreadCpu);             \
     for (int round = 0; round < kRounds; ++round) {                           \
       asm volatile("" : "+x"(a), "+x"(b));                                    \
       _Pragma("GCC unroll 10") for (int i = 0; i < kChains; ++i) {            \
@@ -36,7 +36,7 @@ constexpr int kChains = 10;
         chains[i] = chains[i] - product;                                      \
       }                                                                       \
     }                                                                         \
-    const double seconds = CpuSeconds() - start;                              \
+    const double seconds = 1e-3 * stopwatch.Read();                           \
     for (const Vector& chain : chains) asm volatile("" : : "x"(chain));       \
     return 2.0 * kChains * kRounds * (BYTES / sizeof(T)) / seconds;           \
   }

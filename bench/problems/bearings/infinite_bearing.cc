@@ -93,7 +93,7 @@ Problem Make(int size, double e) {
   const ReynoldsPressure exact(e);
   const Grid line = Line(size);
   Problem problem;
-  problem.name = "infinite-bearing-" + std::to_string(size) + "-e" + Digits(e);
+  problem.name = "infinite-bearing-" + std::to_string(size) + "-e" + ShortestText(e);
   problem.source = "Cryer, Math. Comp. 25 (1971): the infinite journal bearing";
   problem.lcp = FilmLcp(line, [&](double t) { return exact.Film(t); });
   problem.answers = Answers(exact, line);

@@ -73,7 +73,7 @@ Problem MakeJournalBearing(int nx, int ny, double eccentricity) {
   Problem problem;
   problem.name = "journal-bearing-" + std::to_string(nx);
   if (nx != ny) problem.name.append("x").append(std::to_string(ny));
-  problem.name.append("-e").append(Digits(eccentricity));
+  problem.name.append("-e").append(ShortestText(eccentricity));
   problem.source = "MINPACK-2 dpjbfg, b = 10: the journal bearing";
   problem.lcp.M = FivePointMatrix(mesh, k);
   const double load = eccentricity * mesh.hx() * mesh.hy();

@@ -49,9 +49,9 @@ std::vector<Answer> PlaneAnswers(double k, const Grid& line) {
 Problem Make(int size, const Shape& shape) {
   const Grid line = Line(size);
   Problem problem;
-  problem.name = "slider-" + std::to_string(size) + "-k" + Digits(shape.k);
+  problem.name = "slider-" + std::to_string(size) + "-k" + ShortestText(shape.k);
   if (shape.waviness > 0) {
-    problem.name += "-a" + Digits(shape.waviness) + "-m" + Digits(shape.waves);
+    problem.name += "-a" + ShortestText(shape.waviness) + "-m" + ShortestText(shape.waves);
   } else {
     problem.answers = PlaneAnswers(shape.k, line);
   }

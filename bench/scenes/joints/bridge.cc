@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scenes/joints/joint_frames.h"
 #include "scenes/scene.h"
 
 // The bridge is built in the shape in which it hangs at rest, so that whatever it sinks later is
@@ -90,11 +91,12 @@ class Bridge : public Scene {
     btRigidBody* previous = AddPillar(world, shape.joints.front(), -1);
     for (int i = 0; i < size; ++i) {
       btRigidBody* plank = AddPlank(world, shape.planks[i]);
-      AddPins(world, shape.joints[i], previous, plank);
+      AddPins(world, shape.joints[i], kPinSide, previous, plank);
       if (i == (size - 1) / 2 || i == size / 2) Watch(plank, kMaySink);
       previous = plank;
     }
-    AddPins(world, shape.joints.back(), previous, AddPillar(world, shape.joints.back(), 1));
+    AddPins(world, shape.joints.back(), kPinSide, previous,
+            AddPillar(world, shape.joints.back(), 1));
 
     for (int i = 0; i < size; ++i) {
       if (IsLoaded(i, size)) AddCrates(world, shape.planks[i]);
@@ -111,16 +113,6 @@ class Bridge : public Scene {
   static btRigidBody* AddPlank(World* world, const btTransform& pose) {
     const btVector3 size(kPitch - kPlankGap, kPlankThickness, kPlankWidth);
     return world->AddBox(size / 2, {.mass = kPlankMass, .pose = pose, .surface = kRough});
-  }
-
-  static void AddPins(World* world, const btVector3& joint, btRigidBody* a, btRigidBody* b) {
-    for (const btScalar side : {-kPinSide, kPinSide}) {
-      const btVector3 pin = joint + btVector3(0, 0, side);
-      world->AddJoint(std::make_unique<btPoint2PointConstraint>(
-                          *a, *b, a->getCenterOfMassTransform().inverse() * pin,
-                          b->getCenterOfMassTransform().inverse() * pin),
-                      ConnectedBodies::kPassThrough);
-    }
   }
 
   static void AddCrates(World* world, const btTransform& plank) {

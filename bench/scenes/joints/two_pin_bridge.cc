@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "scenes/joints/joint_frames.h"
 #include "scenes/scene.h"
 
 // Light planks on two pins each, sagging from one end to the other, with heavy crates dropped on
@@ -62,24 +63,13 @@ class TwoPinBridge : public Scene {
       btRigidBody* const plank =
           world->AddBox(btVector3(kPitch, kPlankHeight, btScalar(1.6)) / 2,
                         {.mass = is_end ? 0 : kPlankMass, .pose = PlankPose(size, i)});
-      if (previous != nullptr) AddPins(world, Joint(size, i), previous, plank);
+      if (previous != nullptr) AddPins(world, Joint(size, i), kPinSide, previous, plank);
       previous = plank;
     }
     const btVector3 half(kCrateHalf, kCrateHalf, kCrateHalf);
     for (int i = 0; i < kCrates; ++i) {
       const btVector3 at = CratePosition(size, i);
       world->AddBox(half, {.mass = kCrateMass, .pose = At(at.x(), at.y(), at.z())});
-    }
-  }
-
- private:
-  static void AddPins(World* world, const btVector3& joint, btRigidBody* a, btRigidBody* b) {
-    for (const btScalar side : {-kPinSide, kPinSide}) {
-      const btVector3 pin = joint + btVector3(0, 0, side);
-      world->AddJoint(std::make_unique<btPoint2PointConstraint>(
-                          *a, *b, a->getCenterOfMassTransform().inverse() * pin,
-                          b->getCenterOfMassTransform().inverse() * pin),
-                      ConnectedBodies::kPassThrough);
     }
   }
 };

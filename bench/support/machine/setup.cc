@@ -12,13 +12,15 @@
 #include <string_view>
 #include <vector>
 
-#include "simd/target.h"
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/json_number.h"
 
 namespace cairn::cli {
 namespace {
+
+/// What solvers that are made from now on read.
+constexpr const char* kTargetVariable = "CAIRN_SIMD";
 
 std::vector<int> UsableCores() {
   cpu_set_t set;
@@ -57,8 +59,7 @@ void ForceTarget(const std::string& name) {
                                                                         : "does not run here",
                                       fmt::join(NamesOf(supported), ", ")));
   }
-  // What solvers that are made from now on read.
-  setenv("CAIRN_SIMD", name.c_str(), 1);
+  setenv(kTargetVariable, name.c_str(), 1);
 }
 
 }  // namespace
@@ -96,6 +97,15 @@ void WarnOfTarget(std::string_view program) {
   if (why.empty()) return;
   fmt::print(stderr, "{}: {}; Cairn takes {}\n", program, why,
              simd::TargetName(simd::ChosenTarget()));
+}
+
+ForcedTarget::ForcedTarget(simd::Target target) {
+  if (const char* const before = std::getenv(kTargetVariable)) before_ = before;
+  setenv(kTargetVariable, std::string(simd::TargetName(target)).c_str(), 1);
+}
+
+ForcedTarget::~ForcedTarget() {
+  before_ ? setenv(kTargetVariable, before_->c_str(), 1) : unsetenv(kTargetVariable);
 }
 
 std::string Describe(const Setup& setup) {

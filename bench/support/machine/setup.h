@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "simd/target.h"
+
 namespace cairn::cli {
 
 /// How a run uses the machine.
@@ -30,6 +32,18 @@ std::string WhyNotTarget();
 /// Says so on stderr, and which target is taken instead: Cairn itself prints nothing.
 /// @param program  what the line begins with: "cairn"
 void WarnOfTarget(std::string_view program = "cairn");
+
+/// While it lives, solvers that are made use this instruction set.
+class ForcedTarget {
+ public:
+  explicit ForcedTarget(simd::Target target);
+  ~ForcedTarget();
+  ForcedTarget(const ForcedTarget&) = delete;
+  ForcedTarget& operator=(const ForcedTarget&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
 
 /// "1 thread, avx2 asked for, pinned to core 0"
 std::string Describe(const Setup& setup);

@@ -3,16 +3,7 @@
 
 #include <sys/resource.h>
 
-#include <ctime>
-
 namespace cairn::cli {
-
-double Now(SolverClock clock) {
-  timespec time{};
-  clock_gettime(clock == SolverClock::kThreadCpu ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC,
-                &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 ThreadTime ThreadStopwatch::Now() {
   return {.cpu = cli::Now(SolverClock::kThreadCpu), .wall = cli::Now(SolverClock::kWall)};

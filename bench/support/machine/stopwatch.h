@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <ctime>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,37 @@ enum class SolverClock {
   kWall,       ///< For solvers with more than one thread.
 };
 
-/// [ms], from any fixed point on.
-double Now(SolverClock clock);
+/// [ms], from any fixed point on. In the header: libraries below this one use it, too.
+inline double Now(SolverClock clock) {
+  timespec time{};
+  clock_gettime(clock == SolverClock::kThreadCpu ? CLOCK_THREAD_CPUTIME_ID : CLOCK_MONOTONIC,
+                &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+/// Runs from its construction on.
+class Stopwatch {
+ public:
+  explicit Stopwatch(SolverClock clock) : clock_(clock) {}
+  double Read() const { return Now(clock_) - start_; }  ///< [ms]
+
+ private:
+  SolverClock clock_;
+  double start_ = Now(clock_);
+};
+
+/// Adds the time of its life to a sum [ms].
+class SummedTime {
+ public:
+  SummedTime(SolverClock clock, double* sum) : stopwatch_(clock), sum_(sum) {}
+  ~SummedTime() { *sum_ += stopwatch_.Read(); }
+  SummedTime(const SummedTime&) = delete;
+  SummedTime& operator=(const SummedTime&) = delete;
+
+ private:
+  Stopwatch stopwatch_;
+  double* sum_;
+};
 
 /// What something took the thread that did it.
 struct ThreadTime {
@@ -21,7 +51,7 @@ struct ThreadTime {
   bool preempted = false;    ///< It was taken off its core meanwhile.
 };
 
-/// Runs from its construction on.
+/// Likewise, with both clocks, and whether the thread kept its core.
 class ThreadStopwatch {
  public:
   ThreadTime Read() const;
