@@ -11,13 +11,13 @@ namespace cairn::cli {
 /// What ten plain sweeps of one problem take, set-up included, with its pairs known from the solve
 /// before.
 struct Scaling {
-  struct Way {
+  struct Timing {
     std::string name;
     double time = 0;  ///< [ms], median, wall clock.
   };
   int rows = 0;
-  std::vector<Way> threads;  ///< "1", "2", "4" ... with the best instruction set.
-  std::vector<Way> targets;  ///< "scalar", "sse4" ... on one thread.
+  std::vector<Timing> threads;  ///< "1", "2", "4" ... with the best instruction set.
+  std::vector<Timing> targets;  ///< "scalar", "sse4" ... on one thread.
 };
 
 /// Solves from zero impulses, all ways in turn: on 1, 2, 4 ... threads up to the cores there are,

@@ -96,9 +96,10 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
 /// Rows, and ns for each of them with each number of threads and each instruction set.
 Json Ways(const std::optional<Scaling>& scaling) {
   if (!scaling) return nullptr;
-  const auto times = [&](const std::vector<Scaling::Way>& ways) {
+  const auto times = [&](const std::vector<Scaling::Timing>& timings) {
     Json values = Json::array();
-    for (const Scaling::Way& way : ways) values.push_back(Short(1e6 * way.time / scaling->rows));
+    for (const Scaling::Timing& timing : timings)
+      values.push_back(Short(1e6 * timing.time / scaling->rows));
     return values;
   };
   return {{"rows", scaling->rows},

@@ -94,11 +94,11 @@ Json ToJson(const std::vector<Metronome::Beat>& beats) {
 Json ToJson(const std::optional<Scaling>& scaling) {
   if (!scaling) return nullptr;
   Json threads = Json::array(), targets = Json::array();
-  for (const Scaling::Way& way : scaling->threads) {
-    threads.push_back({{"threads", std::stoi(way.name)}, {"time_ms", Number(way.time)}});
+  for (const Scaling::Timing& timing : scaling->threads) {
+    threads.push_back({{"threads", std::stoi(timing.name)}, {"time_ms", Number(timing.time)}});
   }
-  for (const Scaling::Way& way : scaling->targets) {
-    targets.push_back({{"simd", way.name}, {"time_ms", Number(way.time)}});
+  for (const Scaling::Timing& timing : scaling->targets) {
+    targets.push_back({{"simd", timing.name}, {"time_ms", Number(timing.time)}});
   }
   return {{"rows", scaling->rows}, {"by_threads", threads}, {"by_simd", targets}};
 }

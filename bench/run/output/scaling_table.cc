@@ -18,27 +18,27 @@ const SceneResult* FirstMeasured(const RunResult& run) {
 
 }  // namespace
 
-std::vector<std::string> ScalingWays(const RunResult& run) {
-  std::vector<std::string> ways;
+std::vector<std::string> ScalingNames(const RunResult& run) {
+  std::vector<std::string> timings;
   const SceneResult* const scene = FirstMeasured(run);
-  if (scene == nullptr) return ways;
-  for (const Scaling::Way& way : scene->scaling->threads) {
-    ways.push_back(way.name + (way.name == "1" ? " thread" : " threads"));
+  if (scene == nullptr) return timings;
+  for (const Scaling::Timing& timing : scene->scaling->threads) {
+    timings.push_back(timing.name + (timing.name == "1" ? " thread" : " threads"));
   }
-  for (const Scaling::Way& way : scene->scaling->targets) ways.push_back(way.name);
-  return ways;
+  for (const Scaling::Timing& timing : scene->scaling->targets) timings.push_back(timing.name);
+  return timings;
 }
 
 TextTable ScalingTable(const RunResult& run) {
   TextTable table;
   if (FirstMeasured(run) == nullptr) return table;
   table.columns = {{"scene", ""}, {"rows", ""}};
-  for (const std::string& way : ScalingWays(run)) table.columns.push_back({way, "ns a row"});
+  for (const std::string& timing : ScalingNames(run)) table.columns.push_back({timing, "ns a row"});
   for (const SceneResult& scene : run.scenes) {
     if (!scene.scaling) continue;
     std::vector<std::string> row = {scene.name, fmt::format("{}", scene.scaling->rows)};
-    const auto add = [&](const Scaling::Way& way) {
-      row.push_back(FormatNumber(1e6 * way.time / scene.scaling->rows));
+    const auto add = [&](const Scaling::Timing& timing) {
+      row.push_back(FormatNumber(1e6 * timing.time / scene.scaling->rows));
     };
     std::for_each(scene.scaling->threads.begin(), scene.scaling->threads.end(), add);
     std::for_each(scene.scaling->targets.begin(), scene.scaling->targets.end(), add);
