@@ -144,9 +144,9 @@ std::string ScalingSection(const RunResult& run) {
         "<p class=\"soft\">Ten plain sweeps of Cairn on the last frame, set-up included, by "
         "threads (best instruction set) and by instruction set (one thread).</p>\n" +
         Table(table, run.scenes.front()) + "<div class=\"scripted\"><div class=\"legend\">";
-    const std::vector<std::string> ways = ScalingWays(run);
-    for (size_t i = 0; i < ways.size(); ++i) {
-      html += fmt::format("<span>{}{}</span>", StyleKey(static_cast<int>(i)), Escape(ways[i]));
+    const std::vector<std::string> names = ScalingNames(run);
+    for (size_t i = 0; i < names.size(); ++i) {
+      html += fmt::format("<span>{}{}</span>", StyleKey(static_cast<int>(i)), Escape(names[i]));
     }
     html += "</div></div>\n";
   }

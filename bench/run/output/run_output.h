@@ -57,6 +57,6 @@ std::string Advice(const SceneResult& scene, const RunResult& run);
 TextTable ScalingTable(const RunResult& run);
 
 /// The columns after scene and rows: "1 thread", "2 threads", "avx2" ...
-std::vector<std::string> ScalingWays(const RunResult& run);
+std::vector<std::string> ScalingNames(const RunResult& run);
 
 }  // namespace cairn::cli
