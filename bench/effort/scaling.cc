@@ -15,7 +15,7 @@ namespace cairn::cli {
 namespace {
 
 constexpr int kSweeps = 10;
-/// All ways in turn so often, unless that takes too long.
+/// All in turn so often, unless that takes too long.
 constexpr int kMostRounds = 15, kLeastRounds = 3;
 constexpr double kLongest = 2000;  // [ms]
 

@@ -20,7 +20,7 @@ struct Scaling {
   std::vector<Timing> targets;  ///< "scalar", "sse4" ... on one thread.
 };
 
-/// Solves from zero impulses, all ways in turn: on 1, 2, 4 ... threads up to the cores there are,
+/// Solves from zero impulses, all in turn: on 1, 2, 4 ... threads up to the cores there are,
 /// and with every instruction set that runs here.
 Scaling MeasureScaling(const ContactProblem& problem);
 

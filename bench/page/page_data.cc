@@ -94,7 +94,7 @@ Json ToJson(const SolverResult& solver, const SceneResult& scene, const RunResul
 }
 
 /// Rows, and ns for each of them with each number of threads and each instruction set.
-Json Ways(const std::optional<Scaling>& scaling) {
+Json Timings(const std::optional<Scaling>& scaling) {
   if (!scaling) return nullptr;
   const auto times = [&](const std::vector<Scaling::Timing>& timings) {
     Json values = Json::array();
@@ -120,7 +120,7 @@ Json ToJson(const SceneResult& scene, const RunResult& run) {
           {"untimed", untimed},
           {"bullet_has_zones", scene.bullet_has_zones},
           {"solvers", solvers},
-          {"scaling", Ways(scene.scaling)},
+          {"scaling", Timings(scene.scaling)},
           {"replay", PackAnimation(scene, kAnimationBytes / run.scenes.size())}};
 }
 

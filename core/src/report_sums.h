@@ -14,7 +14,8 @@ namespace cairn {
 void ForgetReport(Report* report);
 /// Report::bad_row and its like, from one who looked.
 void CopyJudgement(const Report& checked, Report* report);
-/// Adds what was done in a part of a step. What is said of the state of an island is of the last.
+/// Adds what was done in a part of a step, whose islands are those of the part before unless the
+/// first part is added. What is said of the state of an island is of the last.
 void Add(const Report& part, Report* sum);
 /// Adds up what was done on the islands.
 void SumUp(Report* report);

@@ -19,7 +19,6 @@
 #include "problem/validate.h"
 #include "reference/island_cycle.h"
 #include "reference/pack.h"
-#include "reference/residual.h"
 #include "report_sums.h"
 #include "runtime/budget.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* The interface of C as a C program sees it. Argument: a folder to write to. */
 #include <cairn/cairn.h>
+#include <cairn/cairn_doubles.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -111,6 +112,25 @@ static void SolvesBodiesContactsAndJoints(void) {
   char text[50];
   CHECK(cairnDescribeReport(solver, text, sizeof text) == strlen("converged"));
   CHECK(strcmp(text, "converged") == 0);
+  cairnDestroySolver(solver);
+}
+
+static void SolvesBodiesInDoubles(void) {
+  CairnSolver* solver = MakeSolver();
+  Scene scene;
+  MakeScene(&scene);
+  CairnBodyD bodies[2];
+  CairnVelocityD velocities[2];
+  for (int i = 0; i < 2; ++i) {
+    bodies[i] = cairnDefaultBodyD();
+    bodies[i].invMass = 0.5;
+    for (int k = 0; k < 3; ++k) bodies[i].invInertia[4 * k] = 3;
+    bodies[i].impulse[1] = -2 * 9.81 / 60;
+  }
+  scene.problem.bodies = NULL;
+  CHECK(cairnSolveD(solver, &scene.problem, bodies, &scene.solution, velocities, NULL) == cairnOk);
+  CHECK(fabs(scene.rowImpulses[1] - 2 * 9.81 / 60) < 4e-3);
+  CHECK(fabs(velocities[1].linear[1]) < 2e-3);
   cairnDestroySolver(solver);
 }
 
@@ -469,6 +489,7 @@ static void EveryStatusHasASentence(void) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   SolvesBodiesContactsAndJoints();
+  SolvesBodiesInDoubles();
   RefusesOtherVersionsAndLayouts();
   NamesBadSettings();
   RefusesBadProblems();

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Shared libraries show their public interface and nothing else, have their version in their name, do nothing when they
-are loaded, keep no global but those of a list, and still have the names that the last release showed:
+are loaded, keep no global but those of a list, and still have the names that cmake/exports/*.abi has:
 exports.py BUILD [--write], of a build with -DBUILD_SHARED_LIBS=ON -DCAIRN_TESTS=OFF. --write keeps the names of this
-build, in cmake/exports/*.abi (abigail-tools); without debug information these are names, not the layout of structs."""
+build there (abigail-tools); without debug information these are names, not the layout of structs."""
 import glob
 import os
 import re

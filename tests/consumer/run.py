@@ -118,7 +118,12 @@ class Consumer:
             print("NumPy is missing, skipped")
             return
         library = os.path.join(self.prefix, self.args.libdir, "libcairn-c.so")
-        call([sys.executable, "-B", os.path.join(EXAMPLES, "python", "error_against_sweeps.py"), "--library", library])
+        script = os.path.join(EXAMPLES, "python", "error_against_sweeps.py")
+        said = call([sys.executable, "-B", script, "--library", library], capture_output=True, text=True).stdout
+        print(said)
+        first, last = [[float(cell) for cell in line.split("|")] for line in said.splitlines()[1::11]]
+        if not (last[0] == 100 and last[3] < 1e-3 * first[3] and last[2] < 0.1 * first[2]):
+            sys.exit("a hundred sweeps leave as much error as one")
 
     def c_alone(self):
         # of a static Cairn, that is; a shared one brings its own libraries with it

@@ -12,12 +12,12 @@ export function scaling(host, _, page) {
       textContent: "Pictures of scaling need three scenes; this run has fewer." }));
     return;
   }
-  addWays(host, page.scenes.filter((scene) => scene.scaling));
+  addTimings(host, page.scenes.filter((scene) => scene.scaling));
   addBodies(host, [...page.scenes].sort((a, b) => a.bodies - b.bodies));
 }
 
 /** Time of a row with every number of threads and every instruction set; the legend is in the section. */
-function addWays(host, scenes) {
+function addTimings(host, scenes) {
   if (scenes.length < LEAST_SCENES) return;
   scenes.sort((a, b) => a.scaling.rows - b.scaling.rows);
   const x = scenes.map((scene) => scene.scaling.rows);

@@ -19,21 +19,21 @@ const SceneResult* FirstMeasured(const RunResult& run) {
 }  // namespace
 
 std::vector<std::string> ScalingNames(const RunResult& run) {
-  std::vector<std::string> timings;
+  std::vector<std::string> names;
   const SceneResult* const scene = FirstMeasured(run);
-  if (scene == nullptr) return timings;
+  if (scene == nullptr) return names;
   for (const Scaling::Timing& timing : scene->scaling->threads) {
-    timings.push_back(timing.name + (timing.name == "1" ? " thread" : " threads"));
+    names.push_back(timing.name + (timing.name == "1" ? " thread" : " threads"));
   }
-  for (const Scaling::Timing& timing : scene->scaling->targets) timings.push_back(timing.name);
-  return timings;
+  for (const Scaling::Timing& timing : scene->scaling->targets) names.push_back(timing.name);
+  return names;
 }
 
 TextTable ScalingTable(const RunResult& run) {
   TextTable table;
   if (FirstMeasured(run) == nullptr) return table;
   table.columns = {{"scene", ""}, {"rows", ""}};
-  for (const std::string& timing : ScalingNames(run)) table.columns.push_back({timing, "ns a row"});
+  for (const std::string& name : ScalingNames(run)) table.columns.push_back({name, "ns a row"});
   for (const SceneResult& scene : run.scenes) {
     if (!scene.scaling) continue;
     std::vector<std::string> row = {scene.name, fmt::format("{}", scene.scaling->rows)};

@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <map>
 #include <memory>
+#include <set>
 #include <system_error>
-#include <utility>
 
 #include "problems/problem_folder.h"
 #include "support/failure.h"
@@ -29,9 +28,25 @@ bool HoldsProblem(const fs::path& place) {
                              [&](const char* name) { return fs::exists(place / name); });
 }
 
-void RemoveProblem(const fs::path& place) {
-  std::error_code ignored;  // what stays cannot be written either, which is said then
-  for (const char* name : kFilesOfProblem) fs::remove(place / name, ignored);
+/// Writes a problem beside the one that is there, then puts it into its place: what was there is
+/// gone only when all of the new one is on the disk.
+void ReplaceProblem(const fs::path& place, const problems::Problem& problem) {
+  const fs::path beside = place.string() + ".new";
+  problems::WriteProblemFolder(beside, problem);
+  std::error_code error;
+  for (const char* name : kFilesOfProblem) {
+    if (fs::exists(beside / name)) {
+      fs::rename(beside / name, place / name, error);
+    } else {
+      fs::remove(place / name, error);
+    }
+    if (error) {
+      throw Failure(kBadInput,
+                    fmt::format("'{}' cannot be written: {}; all of the problem is in '{}'",
+                                (place / name).string(), error.message(), beside.string()));
+    }
+  }
+  fs::remove(beside, error);
 }
 
 }  // namespace
@@ -53,23 +68,25 @@ void WriteSolutions(const std::string& folder, const SolveResult& result) {
 
 void WriteProblems(const std::string& folder, std::span<const ProblemChoice> choices,
                    IfThere if_there) {
-  std::map<fs::path, std::unique_ptr<problems::Source>> sources;
+  // all are looked at before one is written; each is made twice, so that memory holds one at a time
+  std::set<std::string> names;
   for (const ProblemChoice& choice : choices) {
-    auto source = choice.make();
-    const std::string name = source->current().name;
+    const std::string name = choice.make()->current().name;
     const fs::path place = fs::path(folder) / name;
     if (if_there == IfThere::kRefuse && HoldsProblem(place)) {
       throw Failure(kBadInput, fmt::format("'{}' holds a problem already: --force writes over it",
                                            place.string()));
     }
-    if (!sources.emplace(place, std::move(source)).second) {
+    if (!names.insert(name).second) {
       throw Failure(kUsage, fmt::format("--export: two problems have the name '{}'", name));
     }
   }
-  for (const auto& [place, source] : sources) {
-    RemoveProblem(place);
+  for (const ProblemChoice& choice : choices) {
+    const std::unique_ptr<problems::Source> source = choice.make();
+    const fs::path place = fs::path(folder) / source->current().name;
     try {
-      problems::WriteProblemFolder(place, source->current());
+      HoldsProblem(place) ? ReplaceProblem(place, source->current())
+                          : problems::WriteProblemFolder(place, source->current());
     } catch (const problems::FileError& error) {
       throw Failure(kBadInput, error.what());
     }

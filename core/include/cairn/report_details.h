@@ -102,7 +102,7 @@ struct Replay {
 /// A setting out of its range, a size that does not fit, or a field of what was refused: "<name> is
 /// <value>, must be <range>".
 struct BadSetting {
-  const char* name = nullptr;  ///< As in Settings, "threads" say; nullptr: all are in range.
+  const char* name = nullptr;  ///< As in Settings, "threads" say; nullptr: none is to blame.
   double value = 0;            ///< Of an enum its number, of a budget nanoseconds or work units.
   const char* range = "";      ///< "1 to 1024", say.
 };

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "cairn/detail/eigen.h"
-#include "cycle/joint_arms.h"
 #include "problem/float_vectors.h"
 
 namespace cairn {

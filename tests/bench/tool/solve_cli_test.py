@@ -343,6 +343,7 @@ class SolveTest(SolveTestCase):
             self.assertEqual(file.read(), "mine")
         self.fine("solve", *command, "--size", "20", "--force")
         self.assertNotIn("w.mtx", os.listdir(os.path.dirname(matrix)))
+        self.assertEqual(os.listdir(self.path("p")), [place])
         self.fine("solve", os.path.dirname(matrix), "--solver", "pgs-sm")
 
     def test_problems_of_one_name_are_not_exported_into_one_folder(self):

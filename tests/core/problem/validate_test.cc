@@ -234,6 +234,20 @@ TEST(Validate, AParentMayNameTheSameBodiesTheOtherWayRound) {
   EXPECT_TRUE(test::Solve(Settings{}, scene).report.ok());
 }
 
+// Nobody looks at motions of rows alone, be there too few of them.
+TEST(Validate, LooksForABadFieldWhereThereIsOne) {
+  Scene scene = GoodScene();
+  scene.bodies[2].inv_mass = -1;
+  const std::vector<ContactMotion> motions(1);
+  ContactProblem problem = scene.problem();
+  problem.motions = motions;
+  std::vector<double> impulses(scene.rows.size());
+  std::vector<Velocity> velocities(scene.bodies.size());
+  Solver solver;
+  const Report report = solver.Solve(problem, {.rows = impulses}, velocities);
+  EXPECT_EQ(Describe(report), "body 2: inv_mass is -1, must be 0 or more");
+}
+
 TEST(Validate, NamesTheFirstOffenderAndBodiesBeforeRows) {
   Scene scene = GoodScene();
   scene.rows[1].target = kNan;

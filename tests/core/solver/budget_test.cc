@@ -23,7 +23,8 @@ using test::Solution;
 
 /// Rows between two looks at the budget (kBlockRows, island_cycle.cc).
 constexpr int kBlock = 256;
-/// The same in blocks: a claim of a thread (kUnitRows, plan.cc) and the rest of its last block.
+/// The same in blocks: a claim of a thread (kUnitRows, plan_stages.cc) and the rest of its last
+/// block.
 constexpr int kUnit = 2048;
 
 /// One island of 720 rows, so that blocks end inside sweeps and between normals and their friction.

@@ -2,7 +2,7 @@
 /* Bodies and velocities in double precision, for engines that keep them so; all else is of
    cairn/cairn.h. They are what the solver computes with: the floats of cairn.h are turned into
    them, and velocities rounded. Contacts and joints are relative to their bodies, and stay floats.
- */
+   These structs are not in CairnLayout: they change with the minor version alone, which is. */
 #ifndef CAIRN_CAIRN_DOUBLES_H
 #define CAIRN_CAIRN_DOUBLES_H
 
