@@ -40,6 +40,15 @@ def public_names(path):
     return [re.sub(r"@@?CAIRN_[\d.]+$", "", name) for name in names if not name.endswith(UNPROMISED)]
 
 
+def describe(path, names):
+    """What docs/everywhere.md has of a library."""
+    inner = sum(name.startswith("cairn::detail::") for name in names)
+    defined = run("nm", "-D", "--defined-only", path).splitlines()
+    others = ", ".join(f"{sum(f'@@{version}' in line for line in defined)} {version}" for version in UNPROMISED)
+    return f"{os.path.basename(path)}: {len(names)} names, {inner} of them of detail; {others}; " \
+           f"{os.path.getsize(path) / 1e6:.2f} MB"
+
+
 def initialisers(path):
     """Functions that are called when the library is loaded, but for the compiler's own."""
     size = re.search(r"INIT_ARRAYSZ\)\s+(\d+)", run("readelf", "-dW", path))
@@ -67,7 +76,7 @@ def check(path):
         errors.append(f"{library}: no version in its soname")
     errors += [f"{library}: keeps a global, {name}" for name in unknown_globals(path)]
     errors += [f"{library}: {line}" for line in removed(path)]
-    return len(names), errors
+    return describe(path, names), errors
 
 
 def kept_names(path):
@@ -99,8 +108,9 @@ def main():
     errors = [error for _, errors in results.values() for error in errors]
     for error in errors:
         print(error)
-    counts = ", ".join(f"{name} {count}" for name, (count, _) in results.items())
-    print(f"{counts} names, {len(errors)} errors")
+    for described, _ in results.values():
+        print(described)
+    print(f"{len(results)} libraries, {len(errors)} errors")
     sys.exit(1 if errors or not results else 0)
 
 
