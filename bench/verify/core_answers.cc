@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Worlds of the core: each of six worlds under six settings, and matrices by every method.
+// Worlds of the core: each of five worlds under seven settings, and matrices by every method.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -87,8 +87,13 @@ std::vector<std::pair<std::string, Settings>> AllSettings() {
   Settings weighed{.max_sweeps = 10, .tolerance = 1e-4, .step_policy = StepPolicy::kWeighed};
   Settings work{.budget = Budget::Work(20000)};
   Settings reference{.path = Path::kReference, .max_sweeps = 20};
-  return {{"defaults", {}},     {"sweeps", sweeps}, {"steps", steps},
-          {"weighed", weighed}, {"work", work},     {"reference", reference}};
+  std::vector<std::pair<std::string, Settings>> all = {{"defaults", {}}, {"sweeps", sweeps},
+                                                       {"steps", steps}, {"weighed", weighed},
+                                                       {"work", work},   {"reference", reference}};
+  // chain and bridge are strained
+  for (auto& [name, settings] : all) settings.geometric_stiffness = false;
+  all.emplace_back("stiff", Settings{});
+  return all;
 }
 
 Answer AnswerOf(std::string name, PlainWorld* world) {

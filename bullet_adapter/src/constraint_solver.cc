@@ -71,6 +71,7 @@ bool SweepsAsBullet(const Settings& settings) {
 Settings ForGroup(const Settings& user, const Options& options, const btContactSolverInfo& info,
                   int max_override) {
   Settings settings = user;
+  settings.geometric_stiffness = false;  // FastGroup sees to it
   if (ByIterations(user, options)) {
     settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
     settings.tolerance = 0;
@@ -108,6 +109,7 @@ struct ConstraintSolver::Impl {
   nanoseconds start{0};
   nanoseconds write_time{0}, finish_time{0};  ///< as far as known
 
+  bool Stiffens() const { return options.geometric_stiffness && settings.geometric_stiffness; }
   nanoseconds Now() const;
   void SetTimeLeft(Budget* budget) const;
 
@@ -273,6 +275,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   {
     const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
     Options options = impl_->options;
+    options.geometric_stiffness = impl_->Stiffens();
     // what is swept in double precision is not rounded to floats before
     if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0)) == Path::kReference)
       options.contacts = ContactForm::kRows;
@@ -299,7 +302,10 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
 
   if (impl_->solved_fast) {
     const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kWrite});
-    if (impl_->options.geometric_stiffness) fast.Learn(info, impl_->report);
+    if (impl_->Stiffens()) {
+      const SpanClock tension(impl_->settings.tuning.spans, 0, {SpanKind::kTension});
+      fast.Learn(info, impl_->report);
+    }
     fast.Write(info, impl_->solver.mean_velocities());
     const nanoseconds write = Passed(solved, impl_->Now());
     SetAside(write, &impl_->write_time);

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "cairn/detail/spans.h"
 #include "contacts/prefetch_manifold.h"
 #include "write_back.h"
 
@@ -17,8 +18,10 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   // the tension of a world says nothing of another one; its info is its own
   if (std::exchange(world_, &info) != &info || !options.geometric_stiffness) stiffness_.Reset();
   bodies_.Begin(group.bodies, info, threads_);
-  if (options.geometric_stiffness)
+  if (options.geometric_stiffness) {
+    const SpanClock clock(threads_->recorder(), 0, {SpanKind::kTension});
     bodies_.Stiffen(&stiffness_, info.m_timeStep / btScalar(substeps));
+  }
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);

@@ -13,6 +13,7 @@
 #include "cycle/block_solver.h"
 #include "cycle/quiet_bodies.h"
 #include "cycle/substeps.h"
+#include "cycle/tension.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
 #include "problem/relaxation.h"
@@ -129,6 +130,7 @@ struct Solver::Impl : detail::Placed {
   void Forget() {
     blocks.reset();
     quiet.Forget();
+    tension.Forget();
     block_prices = kBlockPrices;
     row_prices = kRowPrices;
   }
@@ -165,6 +167,7 @@ struct Solver::Impl : detail::Placed {
   detail::Threads threads;
   Substeps substeps;
   QuietBodies quiet;
+  Tension tension;
   Report part_report;
   bool in_parts = false;  ///< the last Solve() was, and succeeded
   std::unique_ptr<BlockSolver> blocks;
@@ -280,12 +283,14 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   if (!report->ok()) return;
   const Attempt attempt(this);
   quiet.Reserve(problem.bodies.size());
+  const ContactProblem stiff = tension.Stiffen(problem, settings);
   if (settings.substeps == 1 && !settings.relax) {
-    SolveAtOnce(problem, impulses, velocities, report);
+    SolveAtOnce(stiff, impulses, velocities, report);
   } else {
-    SolveInParts(problem, impulses, velocities, report);
+    SolveInParts(stiff, impulses, velocities, report);
   }
   if (!report->ok()) return;
+  tension.Learn(problem, impulses, settings, *report);
   const auto means = in_parts ? substeps.means() : std::span<const Velocity>();
   quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, &threads, report);
 }

@@ -53,7 +53,8 @@ Problem = struct("Problem", *[(name, pointer) for name in
 Solution = struct("Solution", *[(name, pointer) for name in
                                 "points twists jointRows velocities".split()])
 Settings = struct("Settings", ("method", c_int), ("path", c_int), ("kGs", c_i32), ("kSm", c_i32),
-                  ("steps", c_bool), ("relax", c_bool), ("maxSweeps", c_i32), ("substeps", c_i32),
+                  ("steps", c_bool), ("relax", c_bool), ("maxSweeps", c_i32),
+                  ("geometricStiffness", c_bool), ("substeps", c_i32),
                   ("tolerance", c_double), ("quietSpeed", c_double),
                   ("budgetKind", c_int), ("budget", c_i64), ("minSweeps", c_i32),
                   ("threads", c_i32), ("submit", pointer), ("context", pointer),

@@ -183,6 +183,43 @@ TEST(CInterface, PassesEverySettingOn) {
   ExpectSameBits(test::ManifoldTower(12), settings, c);
 }
 
+// A link of 1 kg that carries a ton, by three rows to the world and three to the load.
+TEST(CInterface, RaisesTheInertiaOfWhatPullsTooHard) {
+  Joint joints[2] = {{.body_a = 0, .rows = 3},
+                     {.body_a = 0, .body_b = 1, .first_row = 3, .rows = 3}};
+  JointRow rows[6];
+  for (int k = 0; k < 3; ++k) {
+    rows[k].linear_a[k] = rows[3 + k].linear_a[k] = 1;
+    rows[3 + k].linear_b[k] = -1;
+  }
+  // arms of 0.5 m up, and down: y x x = -z, y x z = x
+  rows[0].angular_a[2] = rows[5].angular_a[0] = -0.5f;
+  rows[2].angular_a[0] = rows[3].angular_a[2] = 0.5f;
+  test::ManifoldScene scene;
+  scene.bodies = {{.inv_mass = 1, .inv_inertia = Matrix3::Diagonal(10, 10, 10), .id = 1},
+                  {.inv_mass = 1e-3, .inv_inertia = Matrix3::Diagonal(1e-3, 1e-3, 1e-3), .id = 2}};
+  scene.bodies[0].impulse = {0.01, -9.81 / 60, 0};
+  scene.bodies[1].impulse = {0, -9810 / 60.0, 0};
+  scene.joints.assign(joints, joints + 2);
+  scene.joint_rows.assign(rows, rows + 6);
+  scene.joint_impulses.assign(6, 0);
+  float spins[2];
+  for (const bool stiff : {false, true}) {
+    test::ManifoldScene copy = scene;
+    test::CScene c = test::ToC(&copy);
+    c.problem.timeStep = 1 / 60.0f;
+    CairnSettings settings = cairnDefaultSettings();
+    settings.geometricStiffness = stiff;
+    const Solver2 solver(settings);
+    for (int step = 0; step < 2; ++step) {
+      ASSERT_EQ(cairnSolve(solver.solver, &c.problem, &c.solution, nullptr), cairnOk);
+    }
+    spins[stiff ? 1 : 0] = c.solution.velocities[0].angular[2];
+  }
+  EXPECT_NE(spins[0], 0);
+  EXPECT_LT(std::abs(spins[1]), 0.9f * std::abs(spins[0]));
+}
+
 TEST(CInterface, HasTheDefaultsOfCpp) {
   const Body body;
   const CairnBody c = cairnDefaultBody();
@@ -196,6 +233,7 @@ TEST(CInterface, HasTheDefaultsOfCpp) {
   EXPECT_EQ(cairnDefaultManifold().tangents, Manifold{}.tangents);
   EXPECT_EQ(cairnDefaultJoint().damping, Joint{}.damping);
   EXPECT_EQ(cairnDefaultSettings().tolerance, Settings{}.tolerance);
+  EXPECT_EQ(cairnDefaultSettings().geometricStiffness, Settings{}.geometric_stiffness);
 }
 
 TEST(CInterface, HasTheVersionOfTheProject) {

@@ -199,6 +199,7 @@ CairnSettings cairnDefaultSettings(void) {
           .steps = from.steps,
           .relax = from.relax,
           .maxSweeps = from.max_sweeps,
+          .geometricStiffness = from.geometric_stiffness,
           .substeps = from.substeps,
           .tolerance = from.tolerance,
           .quietSpeed = from.tuning.quiet_speed,

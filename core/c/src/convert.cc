@@ -99,6 +99,7 @@ Settings ToSettings(const CairnSettings& from) {
   settings.steps = from.steps;
   settings.relax = from.relax;
   settings.max_sweeps = from.maxSweeps;
+  settings.geometric_stiffness = from.geometricStiffness;
   settings.substeps = from.substeps;
   settings.tolerance = from.tolerance;
   settings.tuning.quiet_speed = from.quietSpeed;

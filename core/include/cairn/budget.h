@@ -19,8 +19,7 @@ class Budget {
   /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every
   /// 10,000 rows, and what writing the results will take is set aside; a subspace step starts only
   /// if its predicted cost and the sweeps after it fit, and is given up where it takes longer.
-  /// Results depend on the machine: Report::replay says how to make them again, of one substep
-  /// without Settings::relax.
+  /// Results depend on the machine: Report::replay makes them again, but for substeps and relax.
   /// cairn::lcp reads the clock between sweeps and between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
     return Budget(Kind::kTime, limit.count());

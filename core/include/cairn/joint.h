@@ -36,8 +36,7 @@ struct Joint {
   /// Share of what the bodies do without constraints that rows work against; 1: all.
   float damping = 1;
   bool soft = false;  ///< Rows have a compliance.
-  /// Rows push the bodies with opposite forces: linear_b is -linear_a, whatever it says. That is
-  /// swept faster.
+  /// linear_b is -linear_a, whatever it says: rows push with opposite forces, and are swept faster.
   bool opposite = false;
   detail::RowHost host = {};
 

@@ -35,6 +35,8 @@ struct Settings {
   /// What takes back errors of position moves bodies (Solver::mean_velocities()) and leaves them no
   /// velocity: docs/solver.md, Relaxation. Off with Tuning::replay.
   bool relax = false;
+  /// Joints hold heavy loads at ContactProblem::time_step, if that is above 0: docs/solver.md.
+  bool geometric_stiffness = true;
   /// Done when no row is further from its law than this: natural residual, in [m/s] for rows that
   /// act on points and in [rad/s] for rows that only turn, >= 0. 0 means never; Path::kAuto takes
   /// double precision below 1e-5.

@@ -162,8 +162,9 @@ void GeometricStiffness::Raise(double time_step, const Strained& strained, const
   raised_.push_back({strained.body, damping, response});
 }
 
-void GeometricStiffness::Apply(double time_step, std::span<Body> bodies) {
-  for (const Raised& raised : RaiseInertia(time_step, bodies)) {
+void GeometricStiffness::Apply(double time_step, std::span<Body> bodies,
+                               std::span<const char> jointed) {
+  for (const Raised& raised : RaiseInertia(time_step, bodies, jointed)) {
     auto spin = View(bodies[raised.body].velocity.angular);
     spin -= (View(raised.damping) * spin).eval();
   }
@@ -232,8 +233,10 @@ void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Repor
 void GeometricStiffness::FindJointed(const ContactProblem& problem) {
   jointed_.assign(problem.bodies.size(), 0);
   const auto mark = [this](const auto& between) {
-    if (between.body_a != kWorld) jointed_[between.body_a] = 1;
-    if (between.body_b != kWorld) jointed_[between.body_b] = 1;
+    // kWorld, and bodies that are not there, are past the end
+    for (const int body : {between.body_a, between.body_b}) {
+      if (static_cast<size_t>(body) < jointed_.size()) jointed_[body] = 1;
+    }
   };
   for (const Joint& joint : problem.joints) mark(joint);
   for (const Row& row : problem.rows) {
@@ -340,6 +343,14 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
       report.island_of.size() != bodies) {
     return;
   }
+  // what is known is pointed at from here on
+  if (!memories_.empty()) memories_.reserve(bodies);
+  FindPulled(time_step, problem, impulses);
+  const auto pulls = [](double pull) { return pull != 0; };
+  if (memories_.empty() && problem.rows.empty() &&
+      std::none_of(pull_.begin(), pull_.end(), pulls)) {
+    return;
+  }
   stepped_.assign(bodies, 0);
   for (size_t i = 0; i < bodies; ++i) {
     const int island = report.island_of[i];
@@ -355,7 +366,6 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
   sums_.clear();
   place_.assign(bodies, -1);
   FindJointed(problem);
-  FindPulled(time_step, problem, impulses);
   AddJoints(time_step, problem, impulses);
   AddRows(time_step, problem, impulses);
   Remember(time_step, problem.bodies);

@@ -8,11 +8,13 @@ namespace cairn {
 
 BadSetting FindBadSetting(const Settings& settings) {
   // names every field: a new one does not compile until its range is checked here
-  const auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, tolerance, budget,
-               threads, executor, acceleration, step_policy, proximal_joints, tuning] = settings;
+  const auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, geometric_stiffness,
+               tolerance, budget, threads, executor, acceleration, step_policy, proximal_joints,
+               tuning] = settings;
   const auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, lifted_friction,
                replay, spans, clock] = tuning;
   static_cast<void>(steps);  // any will do, and any of these
+  static_cast<void>(geometric_stiffness);
   static_cast<void>(executor);
   static_cast<void>(spans);
   static_cast<void>(clock);

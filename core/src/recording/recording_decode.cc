@@ -327,9 +327,11 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   }
   read.source.assign(source.begin(), source.end());
   read.frame = frame.frame;
+  read.settings.geometric_stiffness = false;  // as those were solved that do not say
   for (const StepFields& fields : step) {
     read.time_step = fields.time_step;
     read.settings.substeps = fields.substeps;
+    read.settings.geometric_stiffness = fields.geometric_stiffness;
   }
   for (std::size_t i = 0; i < strains.size(); ++i) read.bodies[i].strain = strains[i];
   *recording = std::move(read);

@@ -144,7 +144,8 @@ void AddSections(const Recording& recording, SectionWriter* to) {
   to->Add(kJoints, std::span(recording.joints));
   to->Add(kJointRows, std::span(recording.joint_rows));
   to->Add(kJointImpulses, std::span(recording.joint_impulses));
-  const StepFields step{recording.time_step, recording.settings.substeps};
+  const StepFields step{recording.time_step, recording.settings.substeps,
+                        recording.settings.geometric_stiffness};
   to->Add(kStep, std::span(&step, 1));
   std::vector<double> strains;
   for (const Body& body : recording.bodies) {

@@ -198,12 +198,14 @@ inline Path PathOf(FileOrder order) {
 template <class Io>
 void Visit(Settings& settings, Io& io) {
   // names every field: a new one does not compile until it is part of the file
-  auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, tolerance, budget, threads,
-         executor, acceleration, step_policy, proximal_joints, tuning] = settings;
+  auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, geometric_stiffness,
+         tolerance, budget, threads, executor, acceleration, step_policy, proximal_joints, tuning] =
+      settings;
   auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, lifted_friction,
          replay, spans, clock] = tuning;
   if (!steps) k_sm = 0;         // as files have it
   static_cast<void>(substeps);  // have sections of their own
+  static_cast<void>(geometric_stiffness);
   static_cast<void>(replay);
   static_cast<void>(relax);  // frames are solved again without
   static_cast<void>(quiet_speed);

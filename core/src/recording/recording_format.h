@@ -11,8 +11,9 @@
 
 namespace cairn {
 
-/// Written, and the oldest that is read: it knew no joints. The second knew no substeps.
-inline constexpr std::uint32_t kRecordingVersion = 3, kOldestVersion = 1;
+/// Written, and the oldest that is read: it knew no joints. The second knew no substeps, the third
+/// no geometric stiffness.
+inline constexpr std::uint32_t kRecordingVersion = 4, kOldestVersion = 1;
 /// No text begins like that, and whatever rewrites line ends destroys it.
 inline constexpr std::array<unsigned char, 8> kRecordingMagic = {0x89, 'C',  'R',  'N',
                                                                  '\r', '\n', 0x1a, '\n'};
@@ -87,17 +88,19 @@ std::size_t EntrySize() {
   return counter.bytes();
 }
 
-/// How long the step is, and how it is cut.
+/// How long the step is, how it is cut, and whether that is too long for tension.
 struct StepFields {
   double time_step = 0;
   int substeps = 1;
+  bool geometric_stiffness = false;
 };
 
 template <class Io>
 void Visit(StepFields& step, Io& io) {
   io.F64(step.time_step);
   io.I32(step.substeps);
-  io.Zeros(4);
+  io.Flag(step.geometric_stiffness);
+  io.Zeros(3);
 }
 
 struct FrameNumber {

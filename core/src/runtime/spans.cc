@@ -32,6 +32,8 @@ std::string_view Describe(SpanKind kind) {
       return "wait";
     case SpanKind::kResults:
       return "results";
+    case SpanKind::kTension:
+      return "tension";
     case SpanKind::kWrite:
       return "write back";
   }

@@ -31,6 +31,7 @@ void Threads::Call(int most) { crew_->Call(most); }
 void Threads::Dismiss() { crew_->Dismiss(); }
 bool Threads::several() const { return crew_->threads() > 1; }
 void Threads::RecordTo(SpanRecorder* recorder) { crew_->RecordTo(recorder); }
+SpanRecorder* Threads::recorder() const { return crew_->recorder(); }
 
 void Threads::Do(int parts, PartedWork* work, SpanLabel label) {
   OneStage stage(parts, work, label);

@@ -155,7 +155,7 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   recording.replay = Replay{.work = 5, .fits = {1}};
   const Bytes bytes = EncodeAll(recording);
   EXPECT_EQ(NumberAt(bytes, 0, 8), 0x0a1a0a0d4e524389u);
-  EXPECT_EQ(NumberAt(bytes, 8, 4), 3u);
+  EXPECT_EQ(NumberAt(bytes, 8, 4), 4u);
   EXPECT_EQ(NumberAt(bytes, 12, 4), 19u);
   EXPECT_EQ(NumberAt(bytes, 16, 8), bytes.size());
   const std::pair<const char*, unsigned> sizes[] = {
@@ -222,13 +222,25 @@ TEST(Recording, OfVersion1IsRead) {
   // joints, their rows and impulses, the step, strains
   const Recording read = Decoded(InVersion(1, 5, kBytesOfStep, EncodeAll(recording)));
   EXPECT_TRUE(read.joints.empty());
+  EXPECT_FALSE(read.settings.geometric_stiffness) << "nobody had it";
+  recording.settings.geometric_stiffness = false;
   EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
 }
 
 TEST(Recording, OfVersion2IsRead) {
-  const Recording recording = RandomRecording(5);
+  Recording recording = RandomRecording(5);
   const Recording read = Decoded(InVersion(2, 2, kBytesOfStep, EncodeAll(recording)));
   EXPECT_EQ(read.settings.substeps, 1);
+  EXPECT_FALSE(read.settings.geometric_stiffness) << "nobody had it";
+  recording.settings.geometric_stiffness = false;
+  EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
+}
+
+TEST(Recording, OfVersion3IsRead) {
+  Recording recording = RandomRecording(5);
+  recording.settings.geometric_stiffness = false;  // what is now a flag was 0
+  const Recording read = Decoded(InVersion(3, 0, 0, EncodeAll(recording)));
+  EXPECT_FALSE(read.settings.geometric_stiffness);
   EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
 }
 
@@ -236,15 +248,18 @@ TEST(Recording, KeepsTheStepAndWhatStrains) {
   Recording recording = RandomRecording(6);
   recording.time_step = 0.015;
   recording.settings.substeps = 3;
+  recording.settings.geometric_stiffness = true;
   recording.bodies[1].strain = 7.5;
   const Bytes bytes = EncodeAll(recording);
   const std::size_t step = DataOf(bytes, "STEP"), strains = DataOf(bytes, "STRN");
   EXPECT_EQ(std::bit_cast<double>(NumberAt(bytes, step, 8)), 0.015);
   EXPECT_EQ(NumberAt(bytes, step + 8, 4), 3u);
+  EXPECT_EQ(NumberAt(bytes, step + 12, 4), 1u);
   EXPECT_EQ(std::bit_cast<double>(NumberAt(bytes, strains + 8, 8)), 7.5);
   const Recording read = Decoded(bytes);
   EXPECT_EQ(read.time_step, 0.015);
   EXPECT_EQ(read.settings.substeps, 3);
+  EXPECT_TRUE(read.settings.geometric_stiffness);
   EXPECT_EQ(read.bodies[1].strain, 7.5);
   EXPECT_EQ(read.bodies[0].strain, 0);
   EXPECT_EQ(EncodeAll(read), bytes);

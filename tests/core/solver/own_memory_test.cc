@@ -348,6 +348,83 @@ TEST(OwnMemory, HoldsAllOfASolverOfC) {
   EXPECT_EQ(memory.blocks(), 0);
 }
 
+/// A link of 1 kg under a ton, which is strained from the second step on.
+struct Strained {
+  std::array<Body, 2> bodies;
+  std::array<Joint, 2> joints = {Joint{.body_a = 0, .rows = 3},
+                                 Joint{.body_a = 0, .body_b = 1, .first_row = 3, .rows = 3}};
+  std::array<JointRow, 6> rows;
+  std::array<float, 6> impulses = {};
+  std::array<Velocity, 2> velocities;
+  Report report;
+
+  Strained() {
+    for (int k = 0; k < 3; ++k) {
+      rows[k].linear_a[k] = rows[3 + k].linear_a[k] = 1;
+      rows[3 + k].linear_b[k] = -1;
+    }
+    // arms of half a metre along y
+    rows[0].angular_a[2] = rows[5].angular_a[0] = -0.5f;
+    rows[2].angular_a[0] = rows[3].angular_a[2] = 0.5f;
+    for (int i = 0; i < 2; ++i) {
+      bodies[i].inv_mass = i == 0 ? 1 : 1e-3;
+      bodies[i].inv_inertia = Matrix3::Diagonal(10, 10, 10);
+      bodies[i].impulse = {0, -9.81 / 60 / bodies[i].inv_mass, 0};
+      bodies[i].id = static_cast<std::uint64_t>(i + 1);
+    }
+  }
+  void Solve(Solver* solver) {
+    const ContactProblem problem{
+        .bodies = bodies, .joints = joints, .joint_rows = rows, .time_step = 1 / 60.0};
+    solver->Solve(problem, {.joint_rows = impulses}, velocities, &report);
+  }
+  double strain() const { return report.islands.empty() ? 0 : report.islands[0].strain; }
+};
+
+TEST(OwnMemory, HoldsWhatIsKnownOfTension) {
+  CountingMemory memory;
+  {
+    Strained world;
+    Solver solver({}, &memory);
+    world.Solve(&solver);
+    world.Solve(&solver);
+    EXPECT_GT(world.strain(), 2);
+    const long before = test::NewCalls(), calls = memory.calls();
+    for (int i = 0; i < 100; ++i) world.Solve(&solver);
+    EXPECT_EQ(memory.calls(), calls);
+    EXPECT_EQ(test::NewCalls(), before);
+  }
+  EXPECT_EQ(memory.blocks(), 0);
+}
+
+// What is written is no failure: where there is no memory for tension, it is forgotten.
+TEST(OwnMemory, ThatEndsAfterTheResultsIsNoFailure) {
+  int failed = 0, forgot = 0;
+  bool is_last = false;
+  for (long call = 0; !is_last; ++call) {
+    CountingMemory memory;
+    Strained world;
+    Solver solver({}, &memory);
+    const long calls = memory.calls();
+    world.velocities[0].linear = {7, 7, 7};
+    memory.FailAfter(call);
+    bool threw = false;
+    try {
+      world.Solve(&solver);
+    } catch (const std::bad_alloc&) {
+      threw = true;
+    }
+    EXPECT_EQ(threw, world.velocities[0].linear == Vector3({7, 7, 7})) << call;
+    memory.FailAfter(-1);
+    is_last = memory.calls() - calls <= call;
+    world.Solve(&solver);
+    failed += threw ? 1 : 0;
+    forgot += !threw && world.strain() == 0 ? 1 : 0;
+  }
+  EXPECT_GT(failed, 20);
+  EXPECT_GT(forgot, 5);
+}
+
 TEST(OwnMemory, ThatEndsIsAStatusInC) {
   CountingMemory memory;
   ManifoldScene scene = test::ManifoldTower(20);

@@ -47,7 +47,7 @@ struct Options {
   /// The same for joints, from the substep before if this solver made it.
   bool warm_start_joints = true;
   /// Whether the inertia of bodies is raised whose joints pull too hard for the time step; see
-  /// cairn::GeometricStiffness. Mode::kFast.
+  /// Settings::geometric_stiffness, which must be on, too. Mode::kFast.
   bool geometric_stiffness = true;
 };
 

@@ -139,7 +139,7 @@ typedef struct CairnProblem {
   const CairnJointRow* jointRows;
   int32_t bodyCount, manifoldCount, pointCount, twistCount, jointCount, jointRowCount;
   float bounceSpeed; /* bodies that approach slower do not bounce [m/s] */
-  float timeStep;    /* [s], or 0: with substeps, arms of joints turn by it */
+  float timeStep;    /* [s], or 0: what geometricStiffness and arms with substeps go by */
 } CairnProblem;
 
 /* Impulses are read as the start, and written; velocities are written. One of each per point,
@@ -177,7 +177,8 @@ typedef struct CairnSettings {
   int32_t kGs, kSm;  /* sweeps around a step, factorisations in it */
   bool steps, relax; /* relax: corrections of position leave no velocity; cairnMeanVelocities() */
   int32_t maxSweeps;
-  int32_t substeps; /* parts that the step is cut into, 1 to 64; see cairnMeanVelocities() */
+  bool geometricStiffness; /* inertia is raised where joints pull too hard for timeStep */
+  int32_t substeps;        /* parts that the step is cut into, 1 to 64; see cairnMeanVelocities() */
   double tolerance, quietSpeed; /* [m/s]; of CairnIsland::quiet, [m/s] and [rad/s] */
   CairnBudgetKind budgetKind;
   int64_t budget;     /* nanoseconds, or units of work: 1 = 1 row relaxed */

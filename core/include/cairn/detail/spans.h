@@ -21,6 +21,7 @@ enum class SpanKind : std::uint8_t {
   kFactorise,  ///< Cholesky; number is the front.
   kWait,       ///< For units of work that another thread has claimed.
   kResults,    ///< Impulses and velocities out of the blocks.
+  kTension,    ///< Geometric stiffness, before and after.
   kWrite,      ///< The adapter writes back.
 };
 inline constexpr int kSpanKinds = static_cast<int>(SpanKind::kWrite) + 1;

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/memory.h"
 #include "cairn/report.h"
 
 namespace cairn {
@@ -22,6 +22,8 @@ namespace cairn {
 ///     stiffness.Apply(h, bodies);                     // before a solve
 ///     solver.Solve(problem, impulses, velocities);    // with those bodies
 ///     stiffness.Learn(h, problem, impulses, report);  // after it
+///
+/// Solver does that itself (Settings::geometric_stiffness), but for problems with motions.
 ///
 /// After Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody
 /// dynamics", 2017, and Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015. Other
@@ -43,7 +45,12 @@ class GeometricStiffness {
   std::span<const Raised> RaiseInertia(double time_step, std::span<Body> bodies,
                                        std::span<const char> jointed = {});
   /// The same, and damps Body::velocity.
-  void Apply(double time_step, std::span<Body> bodies);
+  void Apply(double time_step, std::span<Body> bodies, std::span<const char> jointed = {});
+  /// The same for bodies of a problem, which says who is held by a joint. It need not be valid.
+  void Apply(double time_step, const ContactProblem& problem, std::span<Body> bodies) {
+    FindJointed(problem);
+    Apply(time_step, bodies, jointed_);
+  }
   /// Remembers what joints of a solved problem pull with: those of three rows without bounds along
   /// directions at right angles to each other. What sweeps alone leave on an island is not yet its
   /// tension, so there it is averaged over some steps. Islands that touch nothing but themselves
@@ -92,22 +99,22 @@ class GeometricStiffness {
   Memory* FindMoved(std::uint64_t key);
   void NotePlaces(std::span<const Body> bodies);
 
-  std::vector<Memory> memories_;
-  std::vector<std::uint64_t> key_at_;  ///< by place: key of the body there
-  std::vector<int> memory_at_;         ///< by place: in memories_, -1 for none
-  std::vector<int> by_key_;            ///< memories_ by key, ascending; empty until asked for
-  std::vector<Memory*> known_;         ///< by body: what is remembered of it, while that is learnt
-  std::vector<Memory> fresh_;          ///< those that are new
-  std::vector<Strained> strained_;
-  std::vector<Raised> raised_;
-  std::vector<char> stepped_;       ///< by body: a subspace step was kept on its island
-  std::vector<char> anchored_;      ///< by island: something of it touches what does not move
+  Array<Memory> memories_;
+  Array<std::uint64_t> key_at_;  ///< by place: key of the body there
+  Array<int> memory_at_;         ///< by place: in memories_, -1 for none
+  Array<int> by_key_;            ///< memories_ by key, ascending; empty until asked for
+  Array<Memory*> known_;         ///< by body: what is remembered of it, while that is learnt
+  Array<Memory> fresh_;          ///< those that are new
+  Array<Strained> strained_;
+  Array<Raised> raised_;
+  Array<char> stepped_;             ///< by body: a subspace step was kept on its island
+  Array<char> anchored_;            ///< by island: something of it touches what does not move
   std::span<const int> island_of_;  ///< of the report that is learnt from
-  std::vector<char> jointed_;       ///< by body: there is a joint of it
-  std::vector<double> pull_;        ///< by body: whether joints may pull too hard
-  std::vector<int> pulled_;         ///< bodies with an entry in sums_
-  std::vector<int> place_;          ///< by body: in pulled_, -1 for none
-  std::vector<Matrix3> sums_;       ///< K of pulled_
+  Array<char> jointed_;             ///< by body: there is a joint of it
+  Array<double> pull_;              ///< by body: whether joints may pull too hard
+  Array<int> pulled_;               ///< bodies with an entry in sums_
+  Array<int> place_;                ///< by body: in pulled_, -1 for none
+  Array<Matrix3> sums_;             ///< K of pulled_
 };
 
 }  // namespace cairn

@@ -50,6 +50,7 @@ class Threads {
   }
   /// Who takes down what they do from now on; nullptr: nobody. Not while helpers are here.
   void RecordTo(SpanRecorder* recorder);
+  SpanRecorder* recorder() const;
 
   Crew& crew() { return *crew_; }  ///< for the Solver
 
