@@ -80,12 +80,12 @@ int BlockStep<T>::Find(int refinements, Crew* crew) {
 
 template <class T>
 void BlockStep<T>::Predict() {
-  const auto first = plan_->blocks().begin() + group_->first_block;
-  bounded_ = std::any_of(first, first + group_->blocks, [](const simd::PairBlock& block) {
-    return std::any_of(block.rows, block.rows + block.row_count, [](const simd::RowShape& row) {
-      return row.bound != simd::RowBound::kFree;
-    });
-  });
+  bounded_ = free_ = false;
+  for (const auto& block : plan_->blocks().subspan(group_->first_block, group_->blocks)) {
+    for (const simd::RowShape& row : std::span(block.rows, block.row_count)) {
+      (row.bound == simd::RowBound::kFree ? free_ : bounded_) = true;
+    }
+  }
   if (!bounded_) {
     // no row can leave the set
     std::fill(sides_.begin(), sides_.end(), simd::SideLine{});
@@ -219,11 +219,13 @@ void BlockStep<T>::FindTolerances() {
   counts_.assign(islands_.size(), 0);
   for (const simd::LaneRun& run : plan_->runs_of(*group_)) {
     const simd::PairBlock& block = plan_->blocks()[run.block];
+    double of_lanes[kLanes] = {};
+    for (const simd::Line& x : std::span(blocks_->x).subspan(block.x, block.row_count)) {
+      for (int l = 0; l < kLanes; ++l) of_lanes[l] += std::abs(static_cast<double>(x.lane[l]));
+    }
     for (int l = run.first; l < run.first + run.lanes; ++l) {
       const int island = plan_->island_of(run.block, l);
-      for (int i = 0; i < block.row_count; ++i) {
-        sums_[island] += std::abs(static_cast<double>(blocks_->x[block.x + i].lane[l]));
-      }
+      sums_[island] += of_lanes[l];
       counts_[island] += block.row_count;
     }
   }
@@ -399,6 +401,7 @@ bool BlockStep<T>::CondenseJoints(Crew* crew) {
 
 template <class T>
 void BlockStep<T>::FindJointSpeeds(double StepResult::*of) {
+  if (!free_) return;
   for (int b = 0; b < group_->blocks; ++b) {
     const simd::PairBlock& block = plan_->blocks()[group_->first_block + b];
     const LineT speeds = kernels_.find_joint_speeds(ActiveSetOf(b));

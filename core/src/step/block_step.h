@@ -89,8 +89,8 @@ class BlockStep : public detail::Placed {
   BlockSystem<T>* system_ = nullptr;
   std::span<IslandStep> islands_;
   Deadline* deadline_ = nullptr;
-  bool bounded_ = false;                ///< some row of the group has bounds
-  Array<char> phases_, phases_before_;  ///< by island
+  bool bounded_ = false, free_ = false;  ///< some row of the group has bounds, some has none
+  Array<char> phases_, phases_before_;   ///< by island
 
   Array<simd::LaneSettings<T>> lanes_;  ///< by block
   Array<LineT> x_, start_, before_, w_, weights_, product_;

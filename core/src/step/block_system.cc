@@ -17,6 +17,10 @@ constexpr double kFewPairs = 8;
 /// Weight of the last analysis in the mean of steps that one serves.
 constexpr double kNewestAnalysis = 0.5;
 
+/// Bodies of a component that one thread factorises in lanes: of what is larger all threads do
+/// parts.
+constexpr int kMostInLanes = 1024;
+
 /// Whether a graph of so many pairs serves for those that there are now.
 bool Serves(double pairs, double now) {
   return kLeastShareOfPairs * pairs <= now || pairs - now <= kFewPairs;
@@ -26,7 +30,7 @@ bool Serves(double pairs, double now) {
 
 template <class T>
 BlockSystem<T>::BlockSystem(simd::Target target)
-    : products_(simd::PairProductsFor<T>(target)), cholesky_(target) {}
+    : products_(simd::PairProductsFor<T>(target)), lanes_(target), fronts_(target) {}
 
 template <class T>
 bool BlockSystem<T>::Recognise(const Plan& plan, int plan_number, int index) {
@@ -50,9 +54,50 @@ void BlockSystem<T>::Analyse(const Plan& plan) {
   steps_ = 0;
   bodies_ = bodies_now_;
   FindPairs(plan, group);
-  cholesky_.Analyse(nodes(), 6, pairs_);
+  ShareOut();
   FindLanes(plan, group);
   prepared_ = true;
+}
+
+template <class T>
+void BlockSystem<T>::ShareOut() {
+  const Array<char> suits = NodesForLanes(nodes(), pairs_, kMostInLanes);
+  places_.clear();
+  in_lanes_ = 0;
+  int in_fronts = 0;
+  for (char lanes : suits) {
+    places_.push_back({lanes != 0, lanes != 0 ? in_lanes_++ : in_fronts++});
+  }
+  // pairs ascend among those of lanes, too, and among those of fronts
+  Array<NodePair> of_lanes, of_fronts;
+  places_of_pairs_.clear();
+  for (const auto& [a, b] : pairs_) {
+    Array<NodePair>& pairs = places_[a].in_lanes ? of_lanes : of_fronts;
+    places_of_pairs_.push_back({places_[a].in_lanes, static_cast<int>(pairs.size())});
+    pairs.emplace_back(places_[a].index, places_[b].index);
+  }
+  lanes_.Analyse(in_lanes_, of_lanes);
+  fronts_.Analyse(in_fronts, 6, of_fronts);
+  of_lanes_.resize(static_cast<size_t>(6 * in_lanes_));
+  of_fronts_.resize(static_cast<size_t>(6 * in_fronts));
+}
+
+template <class T>
+void BlockSystem<T>::Solve(std::span<T> rhs, Deadline* deadline) {
+  if (in_lanes_ == nodes()) return lanes_.Solve(rhs);
+  if (in_lanes_ == 0) return fronts_.Solve(rhs, deadline);
+  const auto exchange = [&](bool in) {
+    for (int node = 0; node < nodes(); ++node) {
+      const Place& place = places_[node];
+      T* const of_node = (place.in_lanes ? of_lanes_ : of_fronts_).data() + 6 * place.index;
+      T* const of_all = rhs.data() + 6 * node;
+      std::copy_n(in ? of_all : of_node, 6, in ? of_node : of_all);
+    }
+  };
+  exchange(true);
+  lanes_.Solve(of_lanes_);
+  fronts_.Solve(of_fronts_, deadline);
+  exchange(false);
 }
 
 template <class T>
@@ -72,9 +117,9 @@ void BlockSystem<T>::FindBodies(const Plan& plan, const Group& group) {
 
 template <class T>
 void BlockSystem<T>::CountLanes(const Plan& plan, const Group& group) {
-  lanes_ = 0;
+  joined_lanes_ = 0;
   for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
-    lanes_ += block.form == simd::PairForm::kSingle ? 0 : block.lanes;
+    joined_lanes_ += block.form == simd::PairForm::kSingle ? 0 : block.lanes;
   }
 }
 
@@ -117,16 +162,17 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
     }
     at += kLanes;
   }
-  return Serves(static_cast<double>(pairs_.size()), lanes_);
+  return Serves(static_cast<double>(pairs_.size()), joined_lanes_);
 }
 
 template <class T>
 bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const BlockData& blocks,
                                std::span<const simd::LineOf<T>> weights,
                                Array<simd::LineOf<T>>* scratch, Crew* crew, Deadline* deadline) {
-  cholesky_.SetZero();
+  lanes_.SetZero();
+  fronts_.SetZero();
   for (int node = 0; node < nodes(); ++node) {
-    for (int k = 0; k < 6; ++k) cholesky_.diagonal(node)[7 * k] = 1;
+    for (int k = 0; k < 6; ++k) diagonal(node)[7 * k] = 1;
   }
   const RunResults results(group, simd::kGramLines, scratch);
   const auto runs = plan.runs_of(group);
@@ -144,7 +190,7 @@ bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const Block
     }
   }
   const SpanClock clock(crew != nullptr ? crew->recorder() : nullptr, 0, {SpanKind::kFactorise});
-  return cholesky_.Factorise(crew, deadline);
+  return lanes_.Factorise() && fronts_.Factorise(crew, deadline);
 }
 
 template <class T>
@@ -152,7 +198,7 @@ void BlockSystem<T>::AddLane(const simd::PairBlock& block, int lane, int pair,
                              const simd::LineOf<T>* gram) {
   const auto add_triangle = [&](int node, const simd::LineOf<T>* lines) {
     if (node < 0) return;
-    T* const to = cholesky_.diagonal(node);
+    T* const to = diagonal(node);
     for (int c = 0; c < 6; ++c) {
       for (int r = c; r < 6; ++r) to[6 * c + r] += (lines++)->lane[lane];
     }
@@ -165,7 +211,7 @@ void BlockSystem<T>::AddLane(const simd::PairBlock& block, int lane, int pair,
   add_triangle(b, square + simd::kSquareLines);
 
   // rows of a and columns of b, or turned round
-  T* const to = cholesky_.upper(pair);
+  T* const to = upper(pair);
   const int row = a < b ? 1 : 6, column = a < b ? 6 : 1;
   for (int c = 0; c < 6; ++c) {
     for (int r = 0; r < 6; ++r) to[column * c + row * r] += square[6 * c + r].lane[lane];

@@ -7,6 +7,7 @@
 
 #include "cairn/detail/memory.h"
 #include "cholesky/front_cholesky.h"
+#include "cholesky/lane_cholesky.h"
 #include "pack/block_pack.h"
 #include "plan/plan.h"
 #include "runtime/crew.h"
@@ -59,14 +60,14 @@ class BlockSystem : public detail::Placed {
   /// few.
   void Analyse(const Plan& plan);
   /// Bodies and pairs of bodies of the group: what an analysis is to look at.
-  double graph_size() const { return static_cast<double>(nodes() + lanes_); }
+  double graph_size() const { return static_cast<double>(nodes() + joined_lanes_); }
   /// How many steps an analysis is expected to serve, >= 1: a mean that forgets.
   double steps_of_analysis() const { return std::max(expected_steps_, steps_); }
   void CountStep() { ++steps_; }
 
-  /// Multiply-adds of a factorisation, and entries of the factor.
-  double flops() const { return cholesky_.pattern().flops(); }
-  double nonzeros() const { return cholesky_.pattern().nonzeros(); }
+  /// Multiply-adds of a factorisation, and entries of the factor: of fronts that take as long.
+  double flops() const { return lanes_.flops() + fronts_.pattern().flops(); }
+  double nonzeros() const { return kLaneEntry * lanes_.nonzeros() + fronts_.pattern().nonzeros(); }
 
   /// Bodies of the group that can move: each is a node.
   int nodes() const { return static_cast<int>(bodies_now_.size()); }
@@ -84,7 +85,7 @@ class BlockSystem : public detail::Placed {
                                Array<simd::LineOf<T>>* scratch, Crew* crew,
                                Deadline* deadline = nullptr);
   /// Solves H v = rhs in place, six numbers a node.
-  void Solve(std::span<T> rhs, Deadline* deadline = nullptr) { cholesky_.Solve(rhs, deadline); }
+  void Solve(std::span<T> rhs, Deadline* deadline = nullptr);
 
  private:
   bool IsFor(int plan_number, int group) const {
@@ -95,10 +96,28 @@ class BlockSystem : public detail::Placed {
   bool FindLanes(const Plan& plan, const Group& group);
   void FindPairs(const Plan& plan, const Group& group);
   NodePair PairOf(const simd::PairBlock& block, int lane) const;
+  void ShareOut();
+  T* diagonal(int node) {
+    const Place& place = places_[node];
+    return place.in_lanes ? lanes_.diagonal(place.index) : fronts_.diagonal(place.index);
+  }
+  T* upper(int pair) {
+    const Place& place = places_of_pairs_[pair];
+    return place.in_lanes ? lanes_.upper(place.index) : fronts_.upper(place.index);
+  }
   void AddLane(const simd::PairBlock& block, int lane, int pair, const simd::LineOf<T>* gram);
 
   const simd::PairProducts<T>& products_;
-  FrontCholesky<T> cholesky_;
+  /// Trees and chains of bodies are in lanes, other components in fronts.
+  LaneCholesky<T> lanes_;
+  FrontCholesky<T> fronts_;
+  struct Place {
+    bool in_lanes;
+    int index;  ///< there
+  };
+  Array<Place> places_, places_of_pairs_;  ///< by node, by pair
+  int in_lanes_ = 0;                       ///< nodes
+  Array<T> of_lanes_, of_fronts_;          ///< right-hand sides, where there are both
   bool prepared_ = false;
   int plan_number_ = -1, group_ = -1;
   int first_slot_ = 0;
@@ -107,9 +126,11 @@ class BlockSystem : public detail::Placed {
   Array<NodePair> pairs_;  ///< of the analysed graph
   Array<NodePair> known_pairs_, all_pairs_;
   Array<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
-  int lanes_ = 0;            ///< where two do
+  int joined_lanes_ = 0;     ///< where two do
   double steps_ = 0, expected_steps_ = kExpectedSteps;  ///< of this analysis, and of others
 
+  /// What an entry of a factor in lanes takes, in those of fronts.
+  static constexpr double kLaneEntry = 0.5;
   /// Before anything is known: what begins to be piled up goes on so for some frames.
   static constexpr double kExpectedSteps = 4;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cholesky/front_cholesky.h"
+#include "cholesky/lane_cholesky.h"
 #include "runtime/crew.h"
 #include "tests/core/support/factor_graphs.h"
 #include "tests/core/support/watched_new.h"
@@ -39,6 +40,29 @@ void ExpectNoneAfterAnalysis() {
     EXPECT_TRUE(fits);
     EXPECT_EQ(after, before);
   }
+}
+
+template <class T>
+void ExpectNoneInLanes() {
+  const test::FactorGraph graph = test::TreeGraph(50, 1);
+  LaneCholesky<T> factor(simd::BestTarget());
+  ASSERT_TRUE(factor.Analyse(graph.nodes, graph.pairs));
+  std::vector<T> x(6 * graph.nodes, T(1));
+  const long before = test::NewCalls();
+  factor.SetZero();
+  for (int node = 0; node < graph.nodes; ++node) {
+    for (int k = 0; k < 6; ++k) factor.diagonal(node)[7 * k] = T(2);
+  }
+  const bool fits = factor.Factorise();
+  factor.Solve(x);
+  const long after = test::NewCalls();
+  EXPECT_TRUE(fits);
+  EXPECT_EQ(after, before);
+}
+
+TEST(FactorNoAlloc, OfATreeInLanes) {
+  ExpectNoneInLanes<float>();
+  ExpectNoneInLanes<double>();
 }
 
 TEST(FactorNoAlloc, OfAPatternThatIsAnalysed) {

@@ -6,12 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <cstring>
 #include <limits>
 #include <vector>
 
 #include "runtime/crew.h"
-#include "tests/core/support/factor_graphs.h"
+#include "tests/core/support/factor_matrices.h"
 
 namespace cairn {
 namespace {
@@ -19,52 +18,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::FactorGraph;
-
-/// A random matrix of that pattern, diagonally dominant if @p diagonal is 1 or more.
-MatrixXd RandomMatrix(const FactorGraph& graph, int node_size, double diagonal,
-                      std::uint64_t seed) {
-  test::Random random(seed);
-  const int size = graph.nodes * node_size;
-  MatrixXd matrix = MatrixXd::Zero(size, size);
-  const auto fill = [&](int node, int other) {
-    for (int i = 0; i < node_size; ++i) {
-      for (int j = 0; j < node_size; ++j) {
-        const int row = node * node_size + i, column = other * node_size + j;
-        matrix(row, column) = matrix(column, row) = random.Uniform(-1, 1);
-      }
-    }
-  };
-  for (int node = 0; node < graph.nodes; ++node) fill(node, node);
-  for (const auto& [i, j] : graph.pairs) fill(i, j);
-  const VectorXd sums = matrix.cwiseAbs().rowwise().sum();
-  for (int i = 0; i < size; ++i) matrix(i, i) = diagonal * sums[i] + 1e-3;
-  return matrix;
-}
-
-template <class T>
-using Block = Eigen::Map<Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>>;
-
-template <class T>
-void Fill(const FactorGraph& graph, int node_size, const MatrixXd& matrix,
-          FrontCholesky<T>* factor) {
-  factor->SetZero();
-  for (int i = 0; i < graph.nodes; ++i) {
-    Block<T>(factor->diagonal(i), node_size, node_size) =
-        matrix.block(i * node_size, i * node_size, node_size, node_size).template cast<T>();
-  }
-  for (size_t pair = 0; pair < graph.pairs.size(); ++pair) {
-    const auto [i, j] = graph.pairs[pair];
-    Block<T>(factor->upper(static_cast<int>(pair)), node_size, node_size) =
-        matrix.block(i * node_size, j * node_size, node_size, node_size).template cast<T>();
-  }
-}
-
-std::vector<double> RandomVector(int size) {
-  test::Random random(99);
-  std::vector<double> values(size);
-  for (double& value : values) value = random.Uniform(-1, 1);
-  return values;
-}
+using test::Fill;
+using test::RandomMatrix;
+using test::RandomVector;
+using test::SameBits;
 
 template <class T>
 void ExpectSolves(const FactorGraph& graph, int node_size, FrontCholesky<T>* factor,
@@ -181,11 +138,6 @@ std::vector<T> SolutionBy(const FactorGraph& graph, const MatrixXd& matrix, int 
   std::vector<T> x(graph.nodes * node_size, T(1));
   factor.Solve(x);
   return x;
-}
-
-template <class T>
-bool SameBits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 TYPED_TEST(FrontCholeskyIn, GivesTheSameBitsOnEveryTarget) {
