@@ -11,6 +11,7 @@
 #include "cairn/detail/memory.h"
 #include "cairn/detail/threads.h"
 #include "cycle/block_solver.h"
+#include "cycle/corrections.h"
 #include "cycle/quiet_bodies.h"
 #include "cycle/substeps.h"
 #include "cycle/tension.h"
@@ -293,6 +294,8 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   tension.Learn(problem, impulses, settings, *report);
   const auto means = in_parts ? substeps.means() : std::span<const Velocity>();
   quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, &threads, report);
+  const bool moves_on = !means.empty() && problem.motions.empty();
+  TellCorrections(problem, moves_on ? means : velocities, report);
 }
 
 void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& impulses,

@@ -16,7 +16,7 @@ f32, i32 = "f4", "i4"
 VELOCITY = numpy.dtype([("linear", f32, 3), ("angular", f32, 3)], align=True)
 BODY = numpy.dtype([("invMass", f32), ("invInertia", f32, (3, 3)), ("linearFactor", f32, 3),
                     ("velocity", VELOCITY), ("impulse", f32, 3), ("angularImpulse", f32, 3),
-                    ("id", "u8")], align=True)
+                    ("strain", f32), ("id", "u8")], align=True)
 POINT = numpy.dtype([("armA", f32, 3), ("armB", f32, 3), ("normal", f32, 3), ("tangent", f32, 3),
                      ("bias", f32), ("restitution", f32), ("friction", f32), ("compliance", f32)],
                     align=True)
@@ -63,11 +63,13 @@ Report = struct("Report", ("status", c_int), *counts("badBody badManifold badJoi
                 ("stop", c_int), ("path", c_int), ("residualMax", c_double),
                 ("residualAngular", c_double),
                 *counts("sweeps factorisations stepsAccepted stepsRestored guarded islandCount"),
-                ("work", c_i64), ("elapsed", c_i64))
+                ("work", c_i64), ("elapsed", c_i64),
+                *[(name, c_double * 2) for name in ("depth", "gap", "angle")])  # asked, done
 Island = struct("Island", *counts("firstBody bodies rows quiet"), ("speed", c_double),
                 ("spin", c_double), *counts("sweeps factorisations stepsAccepted stepsRestored"),
                 ("stop", c_int), ("guarded", c_bool), ("residualBefore", c_double),
-                ("residual", c_double), ("residualAngular", c_double))
+                ("residual", c_double), ("residualAngular", c_double), ("strain", c_double),
+                *counts("strainedBody enoughSubsteps"))
 Layout = struct("Layout", *[(name, ctypes.c_uint32) for name in (
     "version body contactPoint contactImpulse contactTwist twistImpulse manifold jointRow joint "
     "problem solution settings report island").split()])

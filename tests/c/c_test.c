@@ -115,6 +115,31 @@ static void SolvesBodiesContactsAndJoints(void) {
   cairnDestroySolver(solver);
 }
 
+/* The joint asks for half a metre a second, and gets it. Strain 8 is 4 times too much: two substeps
+   have a quarter each. */
+static void ReportsWhatIsTakenBackAndStrain(void) {
+  CairnSolver* solver = MakeSolver();
+  Scene scene;
+  MakeScene(&scene);
+  scene.rows[0].target = 0.5f;
+  scene.joint.errors = 1;
+  scene.points[2].bias = 0.25f;
+  scene.bodies[1].strain = 8;
+  CairnReport report;
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, &report) == cairnOk);
+  CHECK(fabs(report.gap.asked - 0.5) < 1e-6 && fabs(report.gap.done - 0.5) < 1e-3);
+  CHECK(fabs(report.depth.asked - 0.25) < 1e-6 && fabs(report.depth.done - 0.25) < 1e-3);
+  CHECK(report.angle.asked == 0 && report.angle.done == 0);
+  CairnIsland island;
+  CHECK(cairnGetIsland(solver, 0, &island) == cairnOk);
+  CHECK(island.strain == 8 && island.strainedBody == 1 && island.enoughSubsteps == 2);
+  scene.bodies[1].strain = 0;
+  CHECK(cairnSolve(solver, &scene.problem, &scene.solution, &report) == cairnOk);
+  CHECK(cairnGetIsland(solver, 0, &island) == cairnOk);
+  CHECK(island.strain == 0 && island.strainedBody == -1 && island.enoughSubsteps == 0);
+  cairnDestroySolver(solver);
+}
+
 static void SolvesBodiesInDoubles(void) {
   CairnSolver* solver = MakeSolver();
   Scene scene;
@@ -489,6 +514,7 @@ static void EveryStatusHasASentence(void) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   SolvesBodiesContactsAndJoints();
+  ReportsWhatIsTakenBackAndStrain();
   SolvesBodiesInDoubles();
   RefusesOtherVersionsAndLayouts();
   NamesBadSettings();

@@ -112,6 +112,7 @@ Settings ToSettings(const CairnSettings& from) {
 CairnStatus ToStatus(Status status) { return static_cast<CairnStatus>(status); }
 
 CairnReport ToReport(const Report& from) {
+  const auto correction = [](const Correction& c) -> CairnCorrection { return {c.asked, c.done}; };
   return {.status = ToStatus(from.status),
           .badBody = from.bad_body,
           .badManifold = from.bad_manifold,
@@ -127,7 +128,10 @@ CairnReport ToReport(const Report& from) {
           .guarded = from.guarded,
           .islandCount = static_cast<std::int32_t>(from.islands.size()),
           .work = from.work,
-          .elapsed = from.elapsed.count()};
+          .elapsed = from.elapsed.count(),
+          .depth = correction(from.depth),
+          .gap = correction(from.gap),
+          .angle = correction(from.angle)};
 }
 
 CairnIsland ToIsland(const IslandReport& from) {
@@ -145,7 +149,10 @@ CairnIsland ToIsland(const IslandReport& from) {
           .guarded = from.guards.any(),
           .residualBefore = from.residual_before.max,
           .residual = from.residual.max,
-          .residualAngular = from.residual.max_angular};
+          .residualAngular = from.residual.max_angular,
+          .strain = from.strain,
+          .strainedBody = from.strained_body,
+          .enoughSubsteps = from.enough_substeps};
 }
 
 namespace {
@@ -164,6 +171,7 @@ void CopyBodies(std::span<const BodyOfC> from, Array<Body>* to) {
     result.velocity = {vector(body.velocity.linear), vector(body.velocity.angular)};
     result.impulse = vector(body.impulse);
     result.angular_impulse = vector(body.angularImpulse);
+    result.strain = body.strain;
     result.id = body.id;
   }
 }

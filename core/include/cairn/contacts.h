@@ -48,8 +48,8 @@ struct TouchPoint {
   std::uint32_t feature = 0;  ///< Which point it is among those of its Touch.
 };
 
-/// How far bodies are from where they should be, and how much of that this step is to take back. A
-/// report knows nothing of it: its residuals are of velocities.
+/// How far bodies are from where they should be, and how much of that this step is to take back.
+/// Residuals know nothing of it; Report::depth and gap have what a Solve() was asked for, and did.
 struct PositionError {
   double largest = 0, taken_back = 0;  ///< [m], or [rad].
 };

@@ -8,8 +8,7 @@
 
 namespace cairn {
 
-/// A row of a joint. In floats, a cache line: kernels make rows of it, 16 joints at a time, and no
-/// Row is ever written. Its fields mean what those of a Row do, but for the target:
+/// A row of a joint: a cache line. Its fields mean what those of a Row do, but for the target:
 ///   w = J (v - v_free) + compliance x - (target - damping J v_free),
 /// where v_free is how the bodies move without constraints (ContactProblem::motions, if given).
 struct JointRow {

@@ -57,13 +57,12 @@ struct [[nodiscard]] Report {
   int factorisations = 0;       ///< Sum over islands, like the next two.
   int steps_accepted = 0, steps_restored = 0;
   int guarded = 0;  ///< Islands that something was guarded on; see Guards.
-  StopReason stop = StopReason::kNotStarted;  ///< The one that held back most: a budget spent on
-                                              ///< any island before a sweep limit before the rest.
-  std::int64_t work = 0;                      ///< Work units spent; see Budget::Work.
-  Replay replay;                        ///< With Budget::Time, one substep and no Settings::relax.
+  StopReason stop = StopReason::kNotStarted;  ///< Of all islands, the last in its order.
+  Correction depth, gap, angle;  ///< Of contacts, of joints, and of their rows that only turn.
+  std::int64_t work = 0;         ///< Work units spent; see Budget::Work.
+  Replay replay;                 ///< With Budget::Time, one substep and no Settings::relax.
   std::chrono::nanoseconds elapsed{0};  ///< Wall clock of the Solve(), whatever the budget.
-  /// What subspace steps were predicted to take, with the factorisations that they made, and what
-  /// they took, without the sweeps around them: with Budget::Time, else 0.
+  /// With Budget::Time: what subspace steps were predicted to take, and took, without their sweeps.
   std::chrono::nanoseconds step_predicted{0}, step_time{0};
   Array<IslandReport> islands;  ///< An Array is a std::vector.
   Array<int> island_of;         ///< By body: its place in islands, -1 for one without rows.

@@ -29,8 +29,7 @@ enum class NoStep {
   kNotAsked,      ///< Not by Settings.
   kEnded,         ///< The iteration ended before another one was due.
   kPaused,        ///< One was undone or too dear of late; docs/solver.md, A cycle.
-  kTooDear,       ///< It would not have fitted the budget with its sweeps, or cost more than it can
-                  ///< gain.
+  kTooDear,       ///< It would not have fitted the budget, or cost more than it can gain.
   kSweepsFaster,  ///< Sweeps in its place are predicted to gain more.
 };
 
@@ -45,9 +44,14 @@ struct Residual {
   double energy = 0;       ///< sqrt(sum e_i^2 / d_i) [sqrt(J)].
 };
 
-/// What the solver did on an island to keep it from putting in energy that nothing asks for. An
-/// island on which a step or the result was guarded is left to sweeps for a while. Method::kPgsSm
-/// with LiftedFriction::kRelease only; plain methods are what their names say.
+/// Of rows that take back an error of position (not of Row), the one that asks for most [m/s],
+/// [rad/s]: that, and what bodies then do of it. Times the step, what it was told of an error.
+struct Correction {
+  double asked = 0, done = 0;
+};
+
+/// What kept an island from putting in energy that nothing asks for. Where a step or the result was
+/// guarded it is left to sweeps for a while. Method::kPgsSm with LiftedFriction::kRelease only.
 struct Guards {
   bool start = false;   ///< After the first sweeps impulses were worse than none, and scaled down.
   bool step = false;    ///< A subspace step was undone: it put in energy, threw or flung bodies, or
@@ -69,16 +73,14 @@ struct IslandReport {
   Residual residual;  ///< Of the result.
   /// What impulses are worth [J], 0 for none: 1/2 |M^-1/2 J'x|^2 + 1/2 x'E x - (target - J
   /// v_free)'x, the energy that the problem minimises with bounds of friction frozen. At 0 or
-  /// below, the kinetic energy after the step is at most that without impulses and what the targets
-  /// of rows put in. docs/solver.md has a bound of that.
+  /// below, the kinetic energy after the step is at most that without impulses and what targets put
+  /// in (docs/solver.md has a bound of that).
   double merit = 0;
   Guards guards;
-  int sweeps = 0;
-  int factorisations = 0;
+  int sweeps = 0, factorisations = 0;
   int steps_accepted = 0;  ///< Subspace steps kept.
   int steps_restored = 0;  ///< Subspace steps undone, because the sweeps after them ended worse.
-  /// Work units charged for subspace steps, kept or not, without the sweeps around them. Steps that
-  /// islands take together are shared out by rows.
+  /// Work units of subspace steps, kept or not, without their sweeps. Common ones: shared by rows.
   std::int64_t step_work = 0;
   double strain = 0;  ///< Largest Body::strain; next: whose, and substeps that bring it to 2.
   int strained_body = -1, enough_substeps = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cairn/detail/eigen.h"
+#include "cycle/end_velocity.h"
 
 namespace cairn {
 namespace {
@@ -18,16 +19,6 @@ constexpr int kBodiesOfPart = 512;
 
 int PartsOf(std::size_t bodies) {
   return static_cast<int>((bodies + kBodiesOfPart - 1) / kBodiesOfPart);
-}
-
-/// Velocity at the end of the step, also where those of a problem count from its start.
-Velocity EndOf(const ContactProblem& problem, std::span<const Velocity> velocities, size_t body) {
-  Velocity end = velocities[body];
-  if (problem.motions.empty()) return end;
-  const ContactMotion& motion = problem.motions[body];
-  View(end.linear) += Eigen::Map<const Eigen::Vector3f>(motion.free_velocity).cast<double>();
-  View(end.angular) += Eigen::Map<const Eigen::Vector3f>(motion.free_spin).cast<double>();
-  return end;
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ typedef struct CairnBody {
   float linearFactor[3]; /* scales invMass along each axis, >= 0 */
   CairnVelocity velocity;
   float impulse[3], angularImpulse[3]; /* external, over the step [N s], [N m s] */
-  uint64_t id; /* its name while it lives; 0: none. What is learnt is remembered under it */
+  float strain; /* h^2 T r / I: pull T of joints at a distance r; a step of h blows up at 4 */
+  uint64_t id;  /* its name while it lives; 0: none. What is learnt is remembered under it */
 } CairnBody;
 
 /* A point of contact. The normal row wants the velocity bias + bounce along the normal. */
@@ -198,15 +199,20 @@ typedef enum CairnStop {
   cairnWorkSpent
 } CairnStop;
 
+/* Largest speed that takes back an error of position, and what is done of it [m/s], [rad/s]. */
+typedef struct CairnCorrection {
+  double asked, done;
+} CairnCorrection;
+
 typedef struct CairnReport {
   CairnStatus status;
   int32_t badBody, badManifold, badJoint; /* the first refused, or -1 */
   CairnStop stop;
   CairnPath path;                      /* what solved */
   double residualMax, residualAngular; /* how far the worst row is from its law [m/s], [rad/s] */
-  int32_t sweeps, factorisations, stepsAccepted, stepsRestored, guarded;
-  int32_t islandCount;
-  int64_t work, elapsed; /* units; nanoseconds */
+  int32_t sweeps, factorisations, stepsAccepted, stepsRestored, guarded, islandCount;
+  int64_t work, elapsed;             /* units; nanoseconds */
+  CairnCorrection depth, gap, angle; /* of contacts; joints; their rows that only turn */
 } CairnReport;
 
 /* Bodies that contacts and joints connect. */
@@ -218,6 +224,8 @@ typedef struct CairnIsland {
   CairnStop stop;
   bool guarded;
   double residualBefore, residual, residualAngular;
+  double strain; /* largest CairnBody::strain; above 2 the step is too long */
+  int32_t strainedBody, enoughSubsteps; /* whose, or -1; substeps that bring it to 2, or 0 */
 } CairnIsland;
 
 CAIRN_API CairnBody cairnDefaultBody(void);
@@ -287,13 +295,11 @@ CAIRN_API size_t cairnDescribeReport(const CairnSolver* solver, char* text, size
 CAIRN_API CairnStatus cairnGetIsland(const CairnSolver* solver, int32_t index, CairnIsland* island);
 CAIRN_API const int32_t* cairnIslandOf(const CairnSolver* solver, int32_t* count);
 
-/* For development builds: all that is wrong or cannot be meant, a line each; see cairn/strict.h.
-   Returns the length of the text, 0 if all is well, like snprintf. */
+/* For development builds: what is wrong or cannot be meant, a line each. Returns its length. */
 CAIRN_API size_t cairnValidateStrictly(const CairnProblem* problem, const CairnSolution* solution,
                                        char* text, size_t size);
 
-/* Writes the next step that is solved to a file, with its start: for the cairn tool, and for
-   cairnLoadRecording(). cairnRecordedFiles() counts those written. */
+/* Writes the next step to a file, with its start. cairnRecordedFiles() counts those written. */
 CAIRN_API CairnStatus cairnRecordNext(CairnSolver* solver, const char* path);
 CAIRN_API int32_t cairnRecordedFiles(const CairnSolver* solver);
 

@@ -23,7 +23,7 @@ typedef struct CairnBodyD {
   double invInertia[9];
   double linearFactor[3];
   CairnVelocityD velocity;
-  double impulse[3], angularImpulse[3];
+  double impulse[3], angularImpulse[3], strain;
   uint64_t id;
 } CairnBodyD;
 
