@@ -35,6 +35,7 @@ cli::Command AddStatesCommand(CLI::App* app);
 cli::Command AddLoopCommand(CLI::App* app);
 cli::Command AddGridCommand(CLI::App* app);
 cli::Command AddTensionCommand(CLI::App* app);
+cli::Command AddStandCommand(CLI::App* app);
 
 /// Of a file: who wrote it, in which form, and under which circumstances.
 nlohmann::ordered_json JsonHead(const std::string& subcommand, const cli::RunContext& context);

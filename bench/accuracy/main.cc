@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How accurate Cairn is at game speed: on given states, in closed loop, on a grid of extremes, and
-// under tension.
+// How accurate Cairn is at game speed: on given states, in closed loop, on a grid of extremes,
+// under tension, and under many seeds.
 #include <fmt/format.h>
 
 #include <exception>
@@ -22,7 +22,8 @@ int Main(int count, char** arguments) {
                "cairn_accuracy");
   app.require_subcommand(1);
   const cli::Command commands[] = {AddStatesCommand(&app), AddLoopCommand(&app),
-                                   AddGridCommand(&app), AddTensionCommand(&app)};
+                                   AddGridCommand(&app), AddTensionCommand(&app),
+                                   AddStandCommand(&app)};
   const cli::Arguments typed = {arguments + 1, arguments + count};
   if (!cli::Read(cli::SpellOut(app, typed), &app)) return cli::kFine;
   cli::WarnOfTarget(app.get_name());

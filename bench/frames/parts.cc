@@ -35,6 +35,7 @@ enum Part {
   kMeasuring,
   kGuards,
   kSteps,
+  kTension,
   kResults,
   kWrite,
   kOther,
@@ -42,8 +43,8 @@ enum Part {
 };
 
 constexpr std::array<const char*, kParts> kNames = {
-    "build: bodies", "build: joints", "build: contacts", "plan",    "pack",  "sweeps",
-    "measuring",     "guards",        "steps",           "results", "write", "other"};
+    "build: bodies", "build: joints", "build: contacts", "plan",    "pack",  "sweeps", "measuring",
+    "guards",        "steps",         "tension",         "results", "write", "other"};
 
 /// What of a substep a solver is given.
 enum class Given { kBodies, kBodiesAndJoints };
@@ -155,6 +156,7 @@ class Dissection {
     parts[kMeasuring] = times.of(SpanKind::kMeasure);
     parts[kGuards] = times.of(SpanKind::kGuard);
     parts[kSteps] = times.of(SpanKind::kStep) + times.of(SpanKind::kFactorise);
+    parts[kTension] = times.of(SpanKind::kTension);
     parts[kResults] = times.of(SpanKind::kResults);
     parts[kWrite] = times.of(SpanKind::kWrite);
     parts[kOther] = together - times.together() + times.of(SpanKind::kWait);

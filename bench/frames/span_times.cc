@@ -8,13 +8,22 @@ namespace cairn::frames {
 
 SpanTimes::SpanTimes(std::span<const Span> spans) {
   Span::Clock::time_point outer = Span::Clock::time_point::max();
+  size_t outer_kind = 0;
   // a span comes after those that it contains
   for (size_t i = spans.size(); i-- > 0;) {
     const Span& span = spans[i];
-    if (span.begin >= outer) continue;
+    const auto kind = static_cast<size_t>(span.label.kind);
+    const double time = std::chrono::duration<double, std::micro>(span.end - span.begin).count();
+    if (span.begin >= outer) {
+      // told apart from reading and writing, in which it is done
+      if (span.label.kind != SpanKind::kTension) continue;
+      times_[outer_kind] -= time;
+      times_[kind] += time;
+      continue;
+    }
     outer = span.begin;
-    times_[static_cast<size_t>(span.label.kind)] +=
-        std::chrono::duration<double, std::micro>(span.end - span.begin).count();
+    outer_kind = kind;
+    times_[kind] += time;
   }
 }
 

@@ -29,7 +29,11 @@
   SCENE(Incline)                  \
   SCENE(GrowingTower)             \
   SCENE(Slab)                     \
-  SCENE(WreckingBall)
+  SCENE(WreckingBall)             \
+  SCENE(Crane)                    \
+  SCENE(Chandelier)               \
+  SCENE(Truck)                    \
+  SCENE(CrateBridge)
 
 namespace cairn::bench {
 

@@ -11,6 +11,11 @@ btScalar Draft::DrawRatio(double low, double high) {
   return btScalar(std::exp(random_.Within(std::log(low), std::log(high))));
 }
 
+btScalar Draft::Load(btScalar mass) {
+  if (loads_ == Loads::kAsDrawn) return mass;
+  return mass * btScalar(std::exp(load_random_.Within(std::log(10.0), std::log(1e4))));
+}
+
 int Draft::Count(int least, int most) {
   const double drawn = random_.Within(least, most + 1);
   return std::clamp(static_cast<int>(drawn * scale_), least, most);

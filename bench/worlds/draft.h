@@ -18,13 +18,21 @@ struct Event {
   std::function<void(World*)> happen;
 };
 
+/// Whether what hangs on ropes and lies on bridges is made heavier than a kind has it.
+enum class Loads { kAsDrawn, kHeavy };
+
 /// A world while it is drawn: random numbers, and bodies and joints that fit each other. Lengths in
 /// m, masses in kg; all bodies have the surface of the rules.
 class Draft {
  public:
   /// @param scale  in (0, 1]: how much of its size the world may have; see Count()
-  Draft(World* world, Rules* rules, std::uint64_t seed, double scale)
-      : world_(world), rules_(rules), random_(seed), scale_(scale) {}
+  Draft(World* world, Rules* rules, std::uint64_t seed, double scale, Loads loads)
+      : world_(world),
+        rules_(rules),
+        random_(seed),
+        load_random_(~seed),
+        loads_(loads),
+        scale_(scale) {}
 
   World* world() { return world_; }
   Rules* rules() { return rules_; }
@@ -35,6 +43,8 @@ class Draft {
   btScalar Draw(double low, double high) { return btScalar(random_.Within(low, high)); }
   /// The same, even in the logarithm: of mass ratios.
   btScalar DrawRatio(double low, double high);
+  /// The mass of a load; with numbers of its own, so that all else is drawn as without.
+  btScalar Load(btScalar mass);
   bool Chance(double probability) { return random_.Within(0, 1) < probability; }
   /// Any of 0 to n - 1.
   int Choose(int n) { return static_cast<int>(random_.Within(0, n)); }
@@ -74,7 +84,8 @@ class Draft {
 
   World* world_;
   Rules* rules_;
-  Random random_;
+  Random random_, load_random_;
+  Loads loads_;
   double scale_;
   std::vector<Event> events_;
 };

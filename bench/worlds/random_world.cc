@@ -54,7 +54,8 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
     : kind_(KindOf(seed.seed)), world_(solver), steps_(Stream(seed.seed, kStepStream)) {
   Random random(Stream(seed.seed, kRuleStream));
   rules_ = DrawRules(&random);
-  Draft draft(&world_, &rules_, Stream(seed.seed, kDraftStream), seed.scale);
+  Draft draft(&world_, &rules_, Stream(seed.seed, kDraftStream), seed.scale,
+              seed.heavy ? Loads::kHeavy : Loads::kAsDrawn);
   kind_.draw(&draft);
   if (rules_.events) DrawEvents(&draft);
   Apply(rules_, &world_);
@@ -62,6 +63,7 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
     // momentum is watched there, and only what solvers do to it
     for (btRigidBody* body : world_.dynamic_bodies()) body->setFlags(0);
   }
+  heavy_ = seed.heavy;
   locks_ = seed.locks;
   if (locks_) LockAxes(Random(Stream(seed.seed, kLockStream)), &world_);
   events_ = std::move(draft.events());
@@ -98,6 +100,7 @@ std::string RandomWorld::Describe() const {
        << " bodies of " << lightest << " to " << heaviest << " kg, " << world_.joints().size()
        << " joints; " << bench::Describe(rules_);
   if (locks_) text << ", locked axes";
+  if (heavy_) text << ", heavy loads";
   if (!events_.empty()) text << " at";
   for (const Event& event : events_) text << ' ' << event.time;
   if (!events_.empty()) text << " s";

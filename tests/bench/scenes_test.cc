@@ -195,11 +195,20 @@ TEST(Scenes, HaveTheSizesTheyAreKnownFor) {
   // Three courses of 5 bricks and three of 6, 6 links and the ball.
   EXPECT_EQ(bodies("wrecking-ball", 6), 33 + 7);
   EXPECT_EQ(FindScene("wrecking-ball")->known_facts(6).joints, 7);
+  // A jib, 20 links of 3 kg, a hook and its load; 12 ropes of four links; 24 planks, five of a
+  // truck; 38 planks of 12 kg that move, and five crates.
+  EXPECT_EQ(bodies("crane", 20), 23);
+  EXPECT_EQ(FindScene("crane")->known_facts(20).mass_kg, 800 + 60 + 20 + 2000);
+  EXPECT_EQ(FindScene("chandelier")->known_facts(12).joints, 60);
+  EXPECT_EQ(FindScene("chandelier")->known_facts(12).mass_kg, 1048);
+  EXPECT_EQ(bodies("truck", 24), 29);
+  EXPECT_EQ(FindScene("truck")->known_facts(24).joints, 2 * 25 + 4);
+  EXPECT_EQ(FindScene("crate-bridge")->known_facts(40).mass_kg, 38 * 12 + 500);
 }
 
 TEST(Scenes, AreFoundByNameOnly) {
   const std::vector<std::string> names = SceneNames();
-  EXPECT_EQ(names.size(), 23u);
+  EXPECT_EQ(names.size(), 27u);
   EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
   for (const SceneInfo& info : Scenes()) EXPECT_EQ(FindScene(info.name), &info);
   EXPECT_EQ(FindScene("sandcastle"), nullptr);

@@ -168,6 +168,27 @@ TEST(Locks, AreDrawnApartFromTheWorld) {
   EXPECT_GT(free, 0);
 }
 
+// The same worlds, but for masses.
+TEST(Heavy, LoadsAreDrawnApartFromTheWorld) {
+  int heavier = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    btSequentialImpulseConstraintSolver solver;
+    const RandomWorld plain({.seed = seed}, &solver), heavy({.seed = seed, .heavy = true}, &solver);
+    EXPECT_EQ(StateHash(plain.world()), StateHash(heavy.world())) << seed;
+    const auto of_plain = plain.world().dynamic_bodies(), of_heavy = heavy.world().dynamic_bodies();
+    ASSERT_EQ(of_plain.size(), of_heavy.size());
+    for (size_t i = 0; i < of_plain.size(); ++i) {
+      const double ratio =
+          static_cast<double>(of_heavy[i]->getMass()) / static_cast<double>(of_plain[i]->getMass());
+      if (ratio == 1) continue;
+      ++heavier;
+      EXPECT_GT(ratio, 9.99) << seed;
+      EXPECT_LT(ratio, 10'010) << seed;
+    }
+  }
+  EXPECT_GT(heavier, 20);
+}
+
 TEST(Rules, AreDrawnFromAllThatTheyMayBe) {
   Random random(1);
   std::set<double> rates;

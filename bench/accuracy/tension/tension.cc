@@ -82,8 +82,9 @@ std::span<const TensionSolver> TensionSolvers() {
     settings.k_sm = 0;
     return settings;
   };
-  const auto parts = [](int substeps, int k_sm = 2) {
+  const auto parts = [](int substeps, int k_sm = 2, bool relax = false) {
     Settings settings;
+    settings.relax = relax;
     settings.substeps = substeps;
     settings.k_sm = k_sm;
     return settings;
@@ -96,14 +97,22 @@ std::span<const TensionSolver> TensionSolvers() {
   static const TensionSolver solvers[] = {
       Cairn("cairn", "Cairn as it comes", {}),
       Cairn("cairn-plain", "without geometric stiffness", {}, {.geometric_stiffness = false}),
+      Cairn("cairn-cold", "joints and friction start from zero", {},
+            {.warm_start_friction = false, .warm_start_joints = false}),
       Cairn("cairn-always", "a subspace step in every frame", always()),
       Cairn("cairn-2", "two substeps", parts(2)),
       Cairn("cairn-4", "four substeps", parts(4)),
       Cairn("cairn-4-plain", "the same without stiffness", parts(4),
             {.geometric_stiffness = false}),
+      Cairn("cairn-4x3", "four substeps of three iterations: about the time of one", parts(4), {},
+            3),
+      Cairn("cairn-4-relax", "four substeps, errors taken back without velocity",
+            parts(4, 2, true)),
       Cairn("cairn-40", "one step, as many iterations as four of 10", {}, {}, 40),
       Cairn("cairn-4-sweeps", "four substeps of sweeps only", parts(4, 0)),
       Cairn("cairn-sweeps", "k_sm = 0: sweeps only", sweeps()),
+      Cairn("cairn-sweeps-plain", "the same without stiffness", sweeps(),
+            {.geometric_stiffness = false}),
       Bullet("bullet-10", 10),
       Bullet("bullet-200", 200)};
   return solvers;

@@ -21,6 +21,8 @@ struct TensionSolver {
 
 /// Cairn as it comes and with less, and Bullet.
 std::span<const TensionSolver> TensionSolvers();
+/// Names with commas between them, or all. @throws cli::Failure for a name that there is not.
+std::vector<TensionSolver> ParseTensionSolvers(const std::string& names);
 
 struct TensionOptions {
   double seconds = 10;

@@ -76,19 +76,6 @@ std::vector<TensionCell> CellsOf(const TensionChoice& choice) {
   return cells;
 }
 
-std::vector<TensionSolver> SolversOf(const TensionChoice& choice) {
-  const std::span<const TensionSolver> all = TensionSolvers();
-  if (choice.solvers == "all") return {all.begin(), all.end()};
-  std::vector<std::string> names;
-  for (const TensionSolver& solver : all) names.push_back(solver.name);
-  std::vector<TensionSolver> found;
-  for (const std::string& word : cli::Split(choice.solvers, ',')) {
-    // a name that begins another one is meant itself
-    found.push_back(all[cli::FindName("solver", word, names, "write all, or names of it")]);
-  }
-  return found;
-}
-
 TensionResult Run(const TensionCell& cell, std::span<const TensionSolver> solvers,
                   const TensionChoice& choice, const TensionOptions& options) {
   TensionResult result{.cell = cell, .runs = {}, .differences = {}};
@@ -106,7 +93,7 @@ TensionResult Run(const TensionCell& cell, std::span<const TensionSolver> solver
 int RunTension(const Common& common, const TensionChoice& choice, const std::string& typed) {
   const TensionOptions options{.seconds = choice.seconds};
   const std::vector<TensionCell> cells = CellsOf(choice);
-  const std::vector<TensionSolver> solvers = SolversOf(choice);
+  const std::vector<TensionSolver> solvers = ParseTensionSolvers(choice.solvers);
   if (!common.json.empty()) cli::CheckWritable(common.json);
   const cli::RunContext context = cli::DescribeContext(typed);
   std::vector<TensionResult> results;
@@ -127,6 +114,19 @@ int RunTension(const Common& common, const TensionChoice& choice, const std::str
 }
 
 }  // namespace
+
+std::vector<TensionSolver> ParseTensionSolvers(const std::string& text) {
+  const std::span<const TensionSolver> all = TensionSolvers();
+  if (text == "all") return {all.begin(), all.end()};
+  std::vector<std::string> names;
+  for (const TensionSolver& solver : all) names.push_back(solver.name);
+  std::vector<TensionSolver> found;
+  for (const std::string& word : cli::Split(text, ',')) {
+    // a name that begins another one is meant itself
+    found.push_back(all[cli::FindName("solver", word, names, "write all, or names of it")]);
+  }
+  return found;
+}
 
 cli::Command AddTensionCommand(CLI::App* app) {
   CLI::App* const tension =

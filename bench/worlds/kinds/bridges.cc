@@ -29,7 +29,8 @@ Strand DrawPlanks(Draft* draft, Hold hold) {
 void DropCrates(Draft* draft, const Planks& bridge) {
   const int count = draft->Count(1, 8);
   const btScalar half = draft->Draw(0.15, 0.4), above = draft->Draw(0.01, 2);
-  const btScalar mass = bridge.strand.mass * draft->DrawRatio(0.3, draft->Chance(0.2) ? 200 : 40);
+  const btScalar mass =
+      draft->Load(bridge.strand.mass * draft->DrawRatio(0.3, draft->Chance(0.2) ? 200 : 40));
   const int planks = static_cast<int>(bridge.bodies.size());
   btScalar last = -1000;
   for (int i = 0; i < count; ++i) {

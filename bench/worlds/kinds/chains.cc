@@ -21,7 +21,9 @@ Strand DrawLinks(Draft* draft, btScalar length) {
 
 /// The mass of a load on links of a mass: mostly heavier, sometimes far.
 btScalar DrawLoad(Draft* draft, btScalar link) {
-  return link * (draft->Chance(0.1) ? draft->DrawRatio(0.001, 1000) : draft->DrawRatio(0.3, 200));
+  const btScalar ratio =
+      draft->Chance(0.1) ? draft->DrawRatio(0.001, 1000) : draft->DrawRatio(0.3, 200);
+  return draft->Load(link * ratio);
 }
 
 }  // namespace

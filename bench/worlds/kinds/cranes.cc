@@ -38,7 +38,7 @@ void DrawCrane(Draft* draft) {
   Pin(draft, jib, bodies.front(), tip);
   const btScalar half = draft->Draw(0.2, 0.5);
   btRigidBody* const load =
-      draft->Box(btVector3(half, half, half), rope.mass * draft->DrawRatio(1, 200),
+      draft->Box(btVector3(half, half, half), draft->Load(rope.mass * draft->DrawRatio(1, 200)),
                  At(tip.x(), line.back().y() - half, 0));
   Connect(draft, draft->Chance(0.5) ? Hold::kPin : Hold::kHinge, bodies.back(), load,
           {line.back(), btVector3(0, 0, 1), btVector3(0, -1, 0), half});
@@ -60,8 +60,8 @@ void DrawWreckingBall(Draft* draft) {
   const btVector3 way(0, -std::cos(angle), std::sin(angle));
   const std::vector<btVector3> line = Straight(top, length / btScalar(links) * way, links);
   const std::vector<btRigidBody*> bodies = AddStrand(draft, rope, line);
-  btRigidBody* const ball =
-      draft->Sphere(radius, rope.mass * draft->DrawRatio(1, 200), line.back() + radius * way);
+  btRigidBody* const ball = draft->Sphere(radius, draft->Load(rope.mass * draft->DrawRatio(1, 200)),
+                                          line.back() + radius * way);
   Pin(draft, bodies.back(), ball, line.back());
 }
 

@@ -242,6 +242,24 @@ class TensionTest(AccuracyTest):
                       self.refused(BAD_INPUT, "tension", "--json", "/no/such/folder/r.json"))
 
 
+class StandTest(AccuracyTest):
+    def test_every_seed_has_its_figures(self):
+        text, written = self.run_json("stand", "--scene", "tower:5", "--seeds", "3", "--seconds",
+                                      "1", "--solvers", "cairn,bullet-10", "--jobs", "2")
+        self.assertEqual([solver["name"] for solver in written["solvers"]], ["cairn", "bullet-10"])
+        for solver in written["solvers"]:
+            self.assertEqual([run["seed"] for run in solver["runs"]], [0, 1, 2])
+            for run in solver["runs"]:
+                self.assertNotIn("fell_s", run)
+                self.assertLess(abs(run["height_lost_m"]), 0.1)
+        self.assertIn("0 of 3", text)
+
+    def test_bad_input_is_refused_with_a_reason(self):
+        self.assertIn("'tower'", self.refused(USAGE, "stand", "--scene", "towr"))
+        self.assertIn("--seeds", self.refused(USAGE, "stand", "--seeds", "0"))
+        self.assertIn("did you mean", self.refused(USAGE, "stand", "--solvers", "cairm"))
+
+
 if __name__ == "__main__":
     TOOL = sys.argv.pop(1)
     unittest.main()

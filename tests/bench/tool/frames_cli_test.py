@@ -7,7 +7,7 @@ import unittest
 
 TOOL = ""
 PARTS = ["build: bodies", "build: joints", "build: contacts", "plan", "pack", "sweeps", "measuring",
-         "guards", "steps", "results", "write", "other"]
+         "guards", "steps", "tension", "results", "write", "other"]
 
 
 def frames(*arguments):

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "accuracy/stand/stand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "accuracy/command.h"
+#include "contestants/watched_solver.h"
+#include "scenes/facts.h"
+#include "scenes/scene.h"
+#include "scenes/world.h"
+#include "support/json_number.h"
+#include "support/statistics.h"
+#include "support/text_table.h"
+
+namespace cairn::accuracy {
+namespace {
+
+constexpr int kRate = 60;
+
+StandRun RunSeed(const StandOptions& options, const TensionSolver& solver, std::uint64_t seed) {
+  const std::unique_ptr<btConstraintSolver> made = solver.make();
+  cli::WatchedSolver watched(made.get());
+  bench::World world(&watched);
+  watched.Watch(world.bullet());
+  world.solver_info().m_numIterations = solver.iterations;
+  const std::unique_ptr<bench::Scene> scene = options.scene.make();
+  scene->Build(&world, {.size = options.scene.size, .seed = seed});
+  StandRun run{.seed = seed};
+  const double start = bench::TotalEnergy(world);
+  const int seconds = static_cast<int>(std::lround(options.seconds));
+  for (int second = 0; second < seconds && !run.fell; ++second) {
+    for (int k = 0; k < kRate; ++k) {
+      scene->BeforeStep(&world, second * kRate + k);
+      world.Step();
+      run.gain = std::max(run.gain, bench::TotalEnergy(world) / start - 1);
+    }
+    const bench::SceneFacts facts = scene->Measure(world);
+    run.lost = std::max(run.lost, facts.height_lost_m);
+    run.gap =
+        std::isnan(facts.joint_gap_m) ? facts.joint_gap_m : std::max(run.gap, facts.joint_gap_m);
+    run.speed = bench::LargestSpeed(world);
+    const bool fallen = facts.verdict == bench::SceneFacts::Verdict::kFallen;
+    if (fallen || !watched.failure().empty()) run.fell = second + 1;
+  }
+  return run;
+}
+
+struct Summary {
+  int falls = 0;
+  std::vector<double> lost, speeds, gaps, gains;  ///< of those that stand
+  const StandRun* first_fall = nullptr;
+  const StandRun* worst = nullptr;  ///< of those that stand
+};
+
+Summary SumUp(const std::vector<StandRun>& runs) {
+  Summary sum;
+  for (const StandRun& run : runs) {
+    if (run.fell) {
+      ++sum.falls;
+      if (sum.first_fall == nullptr || *run.fell < *sum.first_fall->fell) sum.first_fall = &run;
+      continue;
+    }
+    sum.lost.push_back(run.lost);
+    sum.speeds.push_back(run.speed);
+    sum.gaps.push_back(run.gap);
+    sum.gains.push_back(100 * run.gain);
+    if (sum.worst == nullptr || run.lost > sum.worst->lost) sum.worst = &run;
+  }
+  return sum;
+}
+
+std::string Millimetres(double metres) { return Digits(1e3 * metres); }
+
+}  // namespace
+
+std::vector<StandRun> RunStand(const StandOptions& options, const TensionSolver& solver) {
+  std::vector<StandRun> runs(static_cast<size_t>(options.seeds));
+  std::atomic<int> next{0};
+  std::mutex mutex;
+  int done = 0;
+  const auto work = [&] {
+    for (int i; (i = next++) < options.seeds;) {
+      runs[static_cast<size_t>(i)] =
+          RunSeed(options, solver, static_cast<std::uint64_t>(options.first + i));
+      const std::lock_guard lock(mutex);
+      ++done;
+      if (options.progress) options.progress(done);
+    }
+  };
+  std::vector<std::thread> workers;
+  for (int i = 1; i < options.jobs; ++i) workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  return runs;
+}
+
+void PrintStand(const std::vector<StandResult>& results, const StandOptions& options) {
+  fmt::print(
+      "{} seeds from {}, {} s each. Height lost and gaps are the largest at the ends of seconds "
+      "[mm], speeds those at the end [m/s], energy the most above the start [%].\n\n",
+      options.seeds, options.first, options.seconds);
+  cli::TextTable table = cli::TableOf({"solver", "fell", "first fall", "lost: median", "worst",
+                                       "worst gap", "worst speed", "most energy"});
+  for (const StandResult& result : results) {
+    const Summary sum = SumUp(result.runs);
+    const auto of_seed = [](const StandRun* run, const auto& what) {
+      return run == nullptr ? "-" : fmt::format("{} (seed {})", what(*run), run->seed);
+    };
+    const auto worst = [](const std::vector<double>& values) {
+      return values.empty() ? std::numeric_limits<double>::quiet_NaN() : std::ranges::max(values);
+    };
+    table.rows.push_back(
+        {result.solver.name, fmt::format("{} of {}", sum.falls, result.runs.size()),
+         of_seed(sum.first_fall,
+                 [](const StandRun& run) { return fmt::format("{} s", *run.fell); }),
+         sum.lost.empty() ? "-" : Millimetres(cli::Median(sum.lost)),
+         of_seed(sum.worst, [](const StandRun& run) { return Millimetres(run.lost); }),
+         Millimetres(worst(sum.gaps)), Digits(worst(sum.speeds)), Digits(worst(sum.gains))});
+  }
+  fmt::print("{}", table.ToText());
+}
+
+nlohmann::ordered_json ToJson(const std::vector<StandResult>& results,
+                              const StandOptions& options) {
+  nlohmann::ordered_json json = {{"scene", options.scene.info->name},
+                                 {"seconds", options.seconds},
+                                 {"solvers", nlohmann::ordered_json::array()}};
+  for (const StandResult& result : results) {
+    nlohmann::ordered_json runs = nlohmann::ordered_json::array();
+    for (const StandRun& run : result.runs) {
+      nlohmann::ordered_json one = {{"seed", run.seed},
+                                    {"height_lost_m", cli::Number(run.lost)},
+                                    {"joint_gap_m", cli::Number(run.gap)},
+                                    {"speed_m_s", cli::Number(run.speed)},
+                                    {"energy_gain", cli::Number(run.gain)}};
+      if (run.fell) one["fell_s"] = *run.fell;
+      runs.push_back(std::move(one));
+    }
+    json["solvers"].push_back({{"name", result.solver.name}, {"runs", std::move(runs)}});
+  }
+  return json;
+}
+
+}  // namespace cairn::accuracy

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// Heavy loads on light jointed bodies in worlds of Bullet: Options::geometric_stiffness.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "cairn/bullet/constraint_solver.h"
+#include "scenes/facts.h"
+#include "scenes/world.h"
+#include "tests/bullet_adapter/scene_world.h"
+
+namespace cairn::test {
+namespace {
+
+using bench::At;
+using bench::World;
+
+constexpr double kGravity = 9.81, kStep = 1.0 / 60;
+constexpr int kLinks = 6;
+
+/// Links of 1 kg and 1 m that hang from the world, and a load at their end.
+struct LoadedChain {
+  bullet::ConstraintSolver solver;
+  World world{&solver};
+  std::vector<btRigidBody*> bodies;
+  std::vector<btTypedConstraint*> joints;  ///< the first holds the chain, the last the load
+  btJointFeedback feedback;                ///< of the first
+  double load;
+
+  explicit LoadedChain(double load_, const Settings& settings = {},
+                       const bullet::Options& options = {}, double tilt = 0)
+      : solver(settings, options), load(load_) {
+    const btQuaternion turn(btVector3(0, 0, 1), btScalar(tilt));
+    const btTransform frame(turn, btVector3(0, 20, 0));
+    const btVector3 half(btScalar(0.1), btScalar(0.5), btScalar(0.1)), up(0, btScalar(0.5), 0);
+    for (int i = 0; i <= kLinks; ++i) {
+      const btTransform pose = frame * At(0, btScalar(-0.5 - i), 0);
+      btRigidBody* const body =
+          i == kLinks ? world.AddSphere(btScalar(0.5), {.mass = btScalar(load), .pose = pose})
+                      : world.AddBox(half, {.mass = 1, .pose = pose});
+      joints.push_back(world.AddJoint(
+          i == 0 ? std::make_unique<btPoint2PointConstraint>(*body, up)
+                 : std::make_unique<btPoint2PointConstraint>(*body, *bodies.back(), up, -up),
+          bench::ConnectedBodies::kPassThrough));
+      bodies.push_back(body);
+    }
+    joints[0]->setJointFeedback(&feedback);
+  }
+  double GapOf(int steps) {
+    double gap = 0;
+    for (int i = 0; i < steps; ++i) {
+      world.Step();
+      gap = std::max(gap, bench::LargestJointGap(world));
+    }
+    return gap;
+  }
+  double MostStrain() const {
+    double most = 0;
+    for (const IslandReport& island : solver.report().islands) {
+      most = std::max(most, island.strain);
+    }
+    return most;
+  }
+};
+
+TEST(TensionInBullet, ChangesNoBitWhereNothingIsStrained) {
+  for (const std::string_view name : {"pyramid", "tower", "wall", "door", "seesaw", "dominoes"}) {
+    bullet::ConstraintSolver on, off({}, {.geometric_stiffness = false});
+    SceneWorld a(name, &on), b(name, &off);
+    for (int second = 0; second < 3; ++second) {
+      a.Step(60);
+      b.Step(60);
+      EXPECT_EQ(bench::StateHash(a.world()), bench::StateHash(b.world())) << name;
+    }
+  }
+}
+
+TEST(TensionInBullet, IsSwitchedOffByEitherSwitch) {
+  LoadedChain on(1000, {}, {}, 0.3), option(1000, {}, {.geometric_stiffness = false}, 0.3),
+      setting(1000, {.geometric_stiffness = false}, {}, 0.3);
+  for (LoadedChain* chain : {&on, &option, &setting}) chain->GapOf(60);
+  EXPECT_GT(on.MostStrain(), 4);
+  EXPECT_EQ(setting.MostStrain(), 0);
+  EXPECT_EQ(bench::StateHash(option.world), bench::StateHash(setting.world));
+  EXPECT_NE(bench::StateHash(option.world), bench::StateHash(on.world));
+}
+
+TEST(TensionInBullet, IsLeftAloneWhereBulletMakesTheRows) {
+  const bullet::Options reference{.mode = bullet::Mode::kReference};
+  bullet::Options plain = reference;
+  plain.geometric_stiffness = false;
+  LoadedChain on(1000, {}, reference, 0.3), off(1000, {.geometric_stiffness = false}, plain, 0.3);
+  on.GapOf(30);
+  off.GapOf(30);
+  EXPECT_EQ(bench::StateHash(on.world), bench::StateHash(off.world));
+  EXPECT_EQ(on.MostStrain(), 0);
+}
+
+TEST(TensionInBullet, LeavesWhatJointsExertAtTheWeight) {
+  LoadedChain chain(1000);
+  const double weight = (chain.load + kLinks) * kGravity;
+  chain.GapOf(60);
+  for (int i = 0; i < 120; ++i) {
+    EXPECT_LT(chain.GapOf(1), 0.01);
+    ASSERT_NEAR(static_cast<double>(chain.feedback.m_appliedForceBodyA.y()), weight, 0.01 * weight)
+        << i;
+  }
+  EXPECT_GT(chain.MostStrain(), 4) << "not a hard case";
+}
+
+// Where the load is above what the last joint bears it falls, and nothing else is thrown about. A
+// threshold bounds the rows of its joint, and such islands are left to sweeps, whose impulses vary.
+TEST(TensionInBullet, BreaksWhereTheLoadIsTooHeavy) {
+  for (const double share : {0.9, 2.0}) {
+    LoadedChain chain(1000);
+    chain.GapOf(60);
+    chain.joints.back()->setBreakingImpulseThreshold(
+        btScalar(share * chain.load * kGravity * kStep));
+    chain.GapOf(60);
+    EXPECT_EQ(chain.joints.back()->isEnabled(), share > 1) << share;
+    if (share > 1) continue;
+    EXPECT_LT(chain.bodies.back()->getLinearVelocity().y(), -7);
+    for (int i = 0; i < kLinks; ++i) {
+      EXPECT_LT(chain.bodies[i]->getLinearVelocity().length(), 3) << i;
+    }
+    for (int i = 0; i < kLinks; ++i) EXPECT_LT(bench::JointGap(*chain.joints[i]), 0.02) << i;
+  }
+}
+
+// With weighed steps it takes none for a second after it woke, and opens: docs/lab/steps.md.
+TEST(TensionInBullet, HoldsLoadsThatFallAsleepAndWakeUp) {
+  LoadedChain chain(1000, {.step_policy = StepPolicy::kAlways});
+  chain.world.LetSleep();
+  for (int i = 0; i < 300 && chain.bodies[0]->isActive(); ++i) chain.world.Step();
+  ASSERT_FALSE(chain.bodies[0]->isActive());
+  // awake, the same push leaves as much
+  LoadedChain other(1000, {.step_policy = StepPolicy::kAlways});
+  other.GapOf(60);
+  for (LoadedChain* of : {&chain, &other}) {
+    for (btRigidBody* body : of->bodies) body->activate(true);
+    of->bodies.back()->setLinearVelocity(btVector3(btScalar(0.2), 0, 0));
+  }
+  const double gap = chain.GapOf(240);
+  EXPECT_LT(gap, 0.03);
+  EXPECT_LT(gap, 1.5 * other.GapOf(240) + 0.001);
+}
+
+// A hinge with a motor at the top turns the chain about its length, another about an axis across.
+TEST(TensionInBullet, HoldsWhatAMotorTurns) {
+  for (const btVector3& axis : {btVector3(0, 1, 0), btVector3(0, 0, 1)}) {
+    double gaps[2];
+    for (const bool on : {true, false}) {
+      LoadedChain chain(1000, {.step_policy = StepPolicy::kAlways}, {.geometric_stiffness = on});
+      chain.world.Remove(chain.joints[0]);
+      auto hinge =
+          std::make_unique<btHingeConstraint>(*chain.bodies[0], btVector3(0, 0.5, 0), axis);
+      hinge->enableAngularMotor(true, btScalar(0.5), btScalar(1e5));
+      chain.world.AddJoint(std::move(hinge), bench::ConnectedBodies::kPassThrough);
+      chain.bodies.back()->setLinearVelocity(btVector3(1, 0, 1));
+      gaps[on ? 1 : 0] = chain.GapOf(240);
+    }
+    EXPECT_LT(gaps[1], 0.05);
+    EXPECT_LT(gaps[1], gaps[0] / 4) << "not a hard case";
+  }
+}
+
+TEST(TensionInBullet, StaysWithinABudgetOfWork) {
+  for (const std::int64_t units : {200, 2000, 20000}) {
+    LoadedChain on(1000, {.budget = Budget::Work(units)}, {}, 0.3);
+    EXPECT_LT(on.GapOf(240), units < 2000 ? 2 : 0.1) << units;
+    EXPECT_LE(on.solver.report().work, 2 * units);
+  }
+}
+
+}  // namespace
+}  // namespace cairn::test
