@@ -19,7 +19,7 @@ trap take_out EXIT
 
 place="$(mktemp -d)"
 cp examples/bullet_swap.cc "$place/game.cc"
-cp examples/tower.c examples/python/*.py "$place"
+cp examples/tower.c examples/engine.c examples/python/*.py "$place"
 (
   cd "$place"
   for package in cairn-bullet cairn-bullet-float64; do
@@ -30,6 +30,9 @@ cp examples/tower.c examples/python/*.py "$place"
   # shellcheck disable=SC2046
   cc -std=c11 tower.c $(pkg-config --cflags --libs cairn-c) -o tower
   ./tower
+  # shellcheck disable=SC2046
+  cc -std=c11 engine.c $(pkg-config --cflags --libs cairn-c) -lm -o engine
+  ./engine
   if python3 -c 'import numpy' 2>/dev/null; then python3 -B error_against_sweeps.py; fi
 )
 # stripped: their globals are looked at where they are built

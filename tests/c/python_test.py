@@ -75,22 +75,49 @@ def test_binding(library_path):
     expect("another version" in said, said)
 
 
-def test_script(library_path, folder):
-    picture = os.path.join(folder, "error_against_sweeps.png")
+def run_script(library_path, picture, *frames):
+    """What it printed, and the errors by the number of sweeps."""
     if os.path.exists(picture):
         os.remove(picture)
     script = os.path.join(EXAMPLE, "error_against_sweeps.py")
-    said = subprocess.run([sys.executable, "-B", script, "--library", library_path, "--plot", picture],
+    said = subprocess.run([sys.executable, "-B", script, "--library", library_path, "--plot", picture, *frames],
                           check=True, capture_output=True, text=True).stdout
     print(said)
     lines = [line.split(" | ") for line in said.splitlines() if re.match(r"\d+ \|", line)]
     errors = {int(line[0]): [float(cell) for cell in line[1:]] for line in lines}
     expect(len(errors) == 12 and all(len(row) == 3 for row in errors.values()), "the table")
+    return said, errors
+
+
+def test_script(library_path, folder):
+    """Without a frame: a tower of its own."""
+    picture = os.path.join(folder, "error_against_sweeps.png")
+    said, errors = run_script(library_path, picture)
     plain, accelerated, steps = errors[100]
     expect(steps < accelerated < plain < errors[1][0], "each method leaves less, and more sweeps do")
     if "no picture: No module named" not in said:
         with open(picture, "rb") as file:
             expect(file.read(4) == b"\x89PNG", "the picture")
+    return errors
+
+
+def test_recorded_frame(library_path, folder, of_tower):
+    import cairn
+    import error_against_sweeps
+    import numpy
+    library = cairn.Library(library_path)
+    frame = os.path.join(folder, "python_test.cairn")
+    if os.path.exists(frame):
+        os.remove(frame)
+    solver = cairn.Solver(library)
+    solver.record_next(frame)
+    # boxes that fall at 3 m/s: errors are larger than those of the script's own tower, put down at rest
+    bodies, manifolds, points = error_against_sweeps.tower(5)
+    bodies["velocity"]["linear"][:, 1] = -3
+    solver.solve(bodies, manifolds, points, numpy.zeros(len(points), cairn.IMPULSE))
+    _, errors = run_script(library_path, os.path.join(folder, "recorded_frame.png"), frame)
+    expect(errors[1][0] > 3 * of_tower[1][0], "the frame is solved, not the tower")
+    expect(errors[100][2] < 1e-3 < errors[1][2], "more sweeps leave less of it")
 
 
 def main():
@@ -98,7 +125,8 @@ def main():
     if sys.argv[3:] == [CHILD]:
         sys.path.insert(0, EXAMPLE)
         test_binding(library)
-        test_script(library, folder)
+        errors = test_script(library, folder)
+        test_recorded_frame(library, folder, errors)
         return
     python = python_with_numpy()
     if python is None:

@@ -132,7 +132,8 @@ class Consumer:
               f"-DCMAKE_C_COMPILER={self.args.cc}", f"-DCMAKE_PREFIX_PATH={self.prefix}",
               "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"])
         call([self.args.cmake, "--build", self.folder])
-        call([os.path.join(self.folder, "tower")])
+        for program in ("tower", "engine"):
+            call([os.path.join(self.folder, program)])
 
     def mixed_precisions(self):
         refused(self.configure("-DCONSUMER_MIXES=ON"), "CAIRN_BULLET_PRECISION property of .*bullet3")

@@ -2,7 +2,6 @@
 #include "cairn/cairn.h"
 #include "cairn/cairn_doubles.h"
 
-#include <bit>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,8 +9,8 @@
 
 #include "cairn/detail/memory.h"
 #include "cairn/detail/recorder.h"
-#include "cairn/strict.h"
 #include "convert.h"
+#include "same_layout.h"
 
 using namespace cairn;
 
@@ -38,13 +37,6 @@ struct CairnRecording {
 
 namespace {
 
-/// A value of C as C++ has it by default.
-template <class To, class From>
-To Same(const From& from) {
-  static_assert(sizeof(To) == sizeof(From));
-  return std::bit_cast<To>(from);
-}
-
 bool SameLayout(const CairnLayout& a, const CairnLayout& b) {
   // the patch may differ: neither structs nor their meaning do
   const bool version = a.version >> 8 == b.version >> 8;
@@ -53,12 +45,6 @@ bool SameLayout(const CairnLayout& a, const CairnLayout& b) {
          a.twistImpulse == b.twistImpulse && a.manifold == b.manifold && a.jointRow == b.jointRow &&
          a.joint == b.joint && a.problem == b.problem && a.solution == b.solution &&
          a.settings == b.settings && a.report == b.report && a.island == b.island;
-}
-
-/// Memory of settings, or operator new.
-detail::Heap::Owner HeapOf(const CairnMemory& memory) {
-  if (memory.allocate == nullptr) return detail::Heap::Owner(static_cast<Memory*>(nullptr));
-  return detail::Heap::Owner(detail::MemorySource{memory.allocate, memory.free, memory.context});
 }
 
 /// Those that have no counterpart in C++, too.
@@ -153,6 +139,8 @@ const char* cairnDescribe(CairnStatus status) {
       return "the file cannot be read or written, or is no recording";
     case cairnFailed:
       return "failed for a reason that has no name";
+    case cairnBadInput:
+      return "what a helper was given is out of its range";
     default:
       return Describe(static_cast<Status>(status)).data();  // of literals, which end in a zero
   }
@@ -162,7 +150,9 @@ uint32_t cairnVersion(void) { return cairnLayout().version; }
 
 CairnBody cairnDefaultBody(void) { return DefaultBody<CairnBody>(); }
 CairnBodyD cairnDefaultBodyD(void) { return DefaultBody<CairnBodyD>(); }
-CairnContactPoint cairnDefaultContactPoint(void) { return Same<CairnContactPoint>(ContactPoint{}); }
+CairnContactPoint cairnDefaultContactPoint(void) {
+  return c::Same<CairnContactPoint>(ContactPoint{});
+}
 CairnManifold cairnDefaultManifold(void) {
   return {.bodyA = kWorld,
           .bodyB = kWorld,
@@ -174,7 +164,7 @@ CairnManifold cairnDefaultManifold(void) {
           .speeds = 0,
           .sweepLimit = Manifold{}.host.max_sweeps};
 }
-CairnJointRow cairnDefaultJointRow(void) { return Same<CairnJointRow>(JointRow{}); }
+CairnJointRow cairnDefaultJointRow(void) { return c::Same<CairnJointRow>(JointRow{}); }
 CairnJoint cairnDefaultJoint(void) {
   return {.bodyA = kWorld,
           .bodyB = kWorld,
@@ -212,14 +202,12 @@ CairnSettings cairnDefaultSettings(void) {
 }
 
 size_t cairnDescribeSettings(const CairnSettings* settings, char* text, size_t size) {
-  std::string said = cairnDescribe(cairnNullPointer);
-  const CairnStatus status = c::Guarded([&] {
+  return c::Say(text, size, [&](std::string* said) {
     if (settings == nullptr) return cairnNullPointer;
     const BadSetting bad = FindBad(*settings);
-    said = bad.name == nullptr ? "" : Describe(bad);
+    *said = bad.name == nullptr ? "" : Describe(bad);
     return cairnOk;
   });
-  return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
 }
 
 CairnStatus cairnCreateSolver(CairnLayout layout, const CairnSettings* settings,
@@ -229,7 +217,7 @@ CairnStatus cairnCreateSolver(CairnLayout layout, const CairnSettings* settings,
     if (settings == nullptr || solver == nullptr) return cairnNullPointer;
     const CairnMemory& memory = settings->memory;
     if (memory.allocate != nullptr && memory.free == nullptr) return cairnNullPointer;
-    detail::Heap::Owner heap = HeapOf(memory);
+    detail::Heap::Owner heap = c::HeapOf(memory);
     const detail::MemoryScope scope(heap.get());
     auto made = std::make_unique<CairnSolver>(std::move(heap));
     const CairnStatus status = Accept(*settings, made.get());
@@ -274,13 +262,11 @@ CairnStatus cairnSolveD(CairnSolver* solver, const CairnProblem* problem, const 
 }
 
 size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
-  std::string said;
-  const CairnStatus status = c::Guarded([&] {
+  return c::Say(text, size, [&](std::string* said) {
     if (solver == nullptr) return cairnNullPointer;
-    said = solver->reported ? Describe(solver->report) : cairnDescribe(solver->last);
+    *said = solver->reported ? Describe(solver->report) : cairnDescribe(solver->last);
     return cairnOk;
   });
-  return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
 }
 
 CairnStatus cairnGetIsland(const CairnSolver* solver, int32_t index, CairnIsland* island) {
@@ -300,19 +286,15 @@ const int32_t* cairnIslandOf(const CairnSolver* solver, int32_t* count) {
 
 size_t cairnValidateStrictly(const CairnProblem* problem, const CairnSolution* solution, char* text,
                              size_t size) {
-  std::string said;
-  const CairnStatus status = c::Guarded([&] {
+  return c::Say(text, size, [&](std::string* said) {
     if (problem == nullptr || solution == nullptr) return cairnNullPointer;
     Array<Body> bodies;
     c::View view;
     const CairnStatus looked = c::Look(*problem, problem->bodies, *solution, &bodies, &view);
     if (looked != cairnOk) return looked;
-    for (const Finding& finding : ValidateStrictly(view.problem, view.impulses)) {
-      said.append(Describe(finding)).append("\n");
-    }
+    c::AppendFindings(view.problem, view.impulses, said);
     return cairnOk;
   });
-  return c::PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), text, size);
 }
 
 CairnStatus cairnRecordNext(CairnSolver* solver, const char* path) {

@@ -2,19 +2,16 @@
 #include "convert.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstring>
 #include <type_traits>
+
+#include "cairn/strict.h"
+#include "same_layout.h"
 
 namespace cairn::c {
 namespace {
 
 // what is read where it lies: one layout in both languages
-#define CAIRN_SAME_SIZE(c_type, type) \
-  static_assert(sizeof(c_type) == sizeof(type) && alignof(c_type) == alignof(type))
-#define CAIRN_SAME_FIELD(c_type, c_field, type, field)                \
-  static_assert(offsetof(c_type, c_field) == offsetof(type, field) && \
-                sizeof(c_type::c_field) == sizeof(type::field))
 CAIRN_SAME_SIZE(CairnContactPoint, ContactPoint);
 CAIRN_SAME_FIELD(CairnContactPoint, armA, ContactPoint, arm_a);
 CAIRN_SAME_FIELD(CairnContactPoint, armB, ContactPoint, arm_b);
@@ -63,8 +60,6 @@ CAIRN_SAME_FIELD(CairnJoint, soft, Joint, soft);
 CAIRN_SAME_FIELD(CairnJoint, opposite, Joint, opposite);
 CAIRN_SAME_FIELD(CairnJoint, sweepLimit, Joint, host.max_sweeps);
 static_assert(CAIRN_WORLD == kWorld);
-#undef CAIRN_SAME_SIZE
-#undef CAIRN_SAME_FIELD
 
 // enums are the same numbers
 static_assert(int{cairnBadSettings} == static_cast<int>(Status::kBadSettings));
@@ -76,12 +71,6 @@ static_assert(int{cairnReference} == static_cast<int>(Path::kReference));
 static_assert(int{cairnBrokeDown} == static_cast<int>(StopReason::kBrokeDown));
 static_assert(int{cairnWorkSpent} == static_cast<int>(StopReason::kWorkSpent));
 static_assert(int{cairnWork} == static_cast<int>(Budget::Kind::kWork));
-
-/// A span over an array of C as one of C++, which has the same layout.
-template <class To, class From>
-std::span<To> Over(From* from, std::int32_t count) {
-  return {reinterpret_cast<To*>(from), static_cast<size_t>(count)};
-}
 
 Budget ToBudget(CairnBudgetKind kind, std::int64_t amount) {
   if (kind == cairnTime) return Budget::Time(std::chrono::nanoseconds(amount));
@@ -155,7 +144,10 @@ CairnIsland ToIsland(const IslandReport& from) {
           .enoughSubsteps = from.enough_substeps};
 }
 
-namespace {
+detail::Heap::Owner HeapOf(const CairnMemory& memory) {
+  if (memory.allocate == nullptr) return detail::Heap::Owner(static_cast<Memory*>(nullptr));
+  return detail::Heap::Owner(detail::MemorySource{memory.allocate, memory.free, memory.context});
+}
 
 template <class BodyOfC>
 void CopyBodies(std::span<const BodyOfC> from, Array<Body>* to) {
@@ -175,8 +167,8 @@ void CopyBodies(std::span<const BodyOfC> from, Array<Body>* to) {
     result.id = body.id;
   }
 }
-
-}  // namespace
+template void CopyBodies(std::span<const CairnBody> from, Array<Body>* to);
+template void CopyBodies(std::span<const CairnBodyD> from, Array<Body>* to);
 
 template <class VelocityOfC>
 void CopyVelocities(std::span<const Velocity> from, VelocityOfC* to) {
@@ -235,6 +227,12 @@ std::size_t PutText(std::string_view text, char* to, std::size_t size) {
     to[copied] = '\0';
   }
   return text.size();
+}
+
+void AppendFindings(const ContactProblem& problem, const Impulses& impulses, std::string* text) {
+  for (const Finding& finding : ValidateStrictly(problem, impulses)) {
+    text->append(Describe(finding)).append("\n");
+  }
 }
 
 }  // namespace cairn::c

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <new>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cairn/cairn.h"
@@ -27,11 +28,17 @@ class CJobs final : public Executor {
   CairnJobs jobs_;
 };
 
+/// Memory of settings, or operator new.
+detail::Heap::Owner HeapOf(const CairnMemory& memory);
+
 /// Without the job system.
 Settings ToSettings(const CairnSettings& settings);
 CairnStatus ToStatus(Status status);
 CairnReport ToReport(const Report& report);
 CairnIsland ToIsland(const IslandReport& island);
+/// @param from  CairnBody or CairnBodyD
+template <class BodyOfC>
+void CopyBodies(std::span<const BodyOfC> from, Array<Body>* to);
 /// @param to  as many CairnVelocity or CairnVelocityD
 template <class VelocityOfC>
 void CopyVelocities(std::span<const Velocity> from, VelocityOfC* to);
@@ -61,5 +68,16 @@ CairnStatus Guarded(const Function& function) noexcept {
     return cairnFailed;
   }
 }
+
+/// The text that function puts into a string, or a sentence for the CairnStatus that it returns.
+template <class Function>
+std::size_t Say(char* to, std::size_t size, const Function& function) noexcept {
+  std::string said;
+  const CairnStatus status = Guarded([&] { return function(&said); });
+  return PutText(status == cairnOk ? std::string_view(said) : cairnDescribe(status), to, size);
+}
+
+/// What ValidateStrictly() finds, a line each.
+void AppendFindings(const ContactProblem& problem, const Impulses& impulses, std::string* text);
 
 }  // namespace cairn::c

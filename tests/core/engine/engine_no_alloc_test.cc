@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/cairn.h"
+#include "cairn/cairn_helpers.h"
 #include "cairn/detail/eigen.h"
 #include "cairn/joints.h"
 #include "cairn/solver.h"
@@ -89,6 +90,45 @@ TEST(EngineNoAlloc, TheInterfaceOfCDoesSo) {
   }
   EXPECT_EQ(test::NewCalls() - before, 0);
   cairnDestroySolver(solver);
+}
+
+TEST(EngineNoAlloc, HelpersOfCUseMemoryAgain) {
+  constexpr int kBodies = 20;
+  std::vector<CairnBody> bodies(kBodies, cairnDefaultBody());
+  for (CairnBody& body : bodies) body.invMass = 1;
+  const CairnFrameSettings settings = cairnDefaultFrameSettings();
+  CairnFrame* frame = nullptr;
+  const long at_first = test::NewCalls();
+  ASSERT_EQ(cairnCreateFrame(cairnHelperLayout(), &settings, &frame), cairnOk);
+  const CairnJointKind hinge = cairnHingeJoint(nullptr);
+  const CairnTouchPoint point = cairnDefaultTouchPoint();
+  const auto step = [&](int first) {
+    CairnStep input = cairnDefaultStep();
+    input.bodies = bodies.data();
+    input.bodyCount = kBodies;
+    ASSERT_EQ(cairnBeginFrame(frame, &input), cairnOk);
+    for (int k = 0; k < kBodies; ++k) {
+      const int i = (k + first) % kBodies;
+      CairnTouch touch = cairnDefaultTouch();
+      touch.bodyA = i;
+      touch.id = static_cast<std::uint64_t>(i + 1);
+      ASSERT_EQ(cairnAddTouch(frame, &touch, &point, 1), cairnOk);
+      CairnJointSide a = cairnDefaultJointSide();
+      a.body = i;
+      const CairnJointSide b = cairnDefaultJointSide();
+      ASSERT_EQ(cairnAddJoint(frame, &hinge, &a, &b, touch.id, nullptr), cairnOk);
+    }
+    CairnProblem problem;
+    CairnSolution solution;
+    ASSERT_EQ(cairnFrameProblem(frame, &problem, &solution), cairnOk);
+    ASSERT_EQ(problem.jointRowCount, 5 * kBodies);
+  };
+  for (int i = 0; i < 3; ++i) step(i);
+  const long before = test::NewCalls();
+  EXPECT_GT(before, at_first);
+  for (int i = 0; i < 1000; ++i) step(i);
+  EXPECT_EQ(test::NewCalls() - before, 0);
+  cairnDestroyFrame(frame);
 }
 
 TEST(EngineNoAlloc, LackOfMemoryIsAStatusInC) {

@@ -49,7 +49,8 @@ typedef enum CairnStatus {
   cairnNullPointer,        /* where there must be something */
   cairnOutOfMemory,
   cairnBadFile, /* it cannot be read or written, or is no recording */
-  cairnFailed   /* none of these: a mistake of ours */
+  cairnFailed,  /* none of these: a mistake of ours */
+  cairnBadInput /* cairn_helpers.h was given what is out of its range; see cairnDescribeInput() */
 } CairnStatus;
 
 CAIRN_API const char* cairnDescribe(CairnStatus status); /* one sentence; lives forever */
