@@ -79,7 +79,8 @@ class Contacts {
 
   ContactOptions& options() { return options_; }
 
-  /// Begins a frame. The bodies are looked at until the last Add().
+  /// Begins a frame. The bodies are looked at until the last Add(). Where memory ends, this and
+  /// Add() throw std::bad_alloc, and have changed nothing.
   void Begin(const StepInput& step);
   /// More than Manifold::kMostPoints points become several manifolds.
   void Add(const Touch& touch, std::span<const TouchPoint> points);

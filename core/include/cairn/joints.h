@@ -74,7 +74,8 @@ class Joints {
   /// @param erp  share of an error that is taken back in a step, in [0, 1]
   explicit Joints(double erp, Memory* memory = nullptr);
 
-  /// Begins a frame. The bodies are looked at until the last Add().
+  /// Begins a frame. The bodies are looked at until the last Add(). Where memory ends, this and
+  /// Add() throw std::bad_alloc, and have changed nothing.
   void Begin(const StepInput& step);
   /// @param id  names the joint while it lives; 0: no name, no warm start
   /// @return    its place in joints(); -1 if the kind holds nothing, and nothing was added

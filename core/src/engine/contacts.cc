@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/room.h"
 #include "engine/step_body.h"
 
 namespace cairn {
@@ -76,6 +77,7 @@ Contacts::Contacts(const ContactOptions& options, Memory* memory)
       kept_(memory) {}
 
 void Contacts::Begin(const StepInput& step) {
+  kept_.reserve(keys_.size());
   kept_.clear();
   for (size_t i = 0; i < keys_.size(); ++i) {
     if (keys_[i].id != 0) kept_.push_back({keys_[i], static_cast<int>(i), impulses_[i]});
@@ -93,6 +95,10 @@ void Contacts::Begin(const StepInput& step) {
 }
 
 void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
+  MakeRoom(points.size() / Manifold::kMostPoints + 1, &manifolds_);
+  MakeRoom(points.size(), &points_);
+  MakeRoom(points.size(), &impulses_);
+  MakeRoom(points.size(), &keys_);
   Manifold* manifold = nullptr;
   for (const TouchPoint& point : points) {
     if (-point.depth > options_.max_gap) continue;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/angle.h"
+#include "engine/room.h"
 #include "engine/step_body.h"
 
 namespace cairn {
@@ -78,6 +79,7 @@ Joints::Joints(double erp, Memory* memory)
       kept_(memory) {}
 
 void Joints::Begin(const StepInput& step) {
+  kept_.reserve(joints_.size());
   kept_.clear();
   for (size_t i = 0; i < joints_.size(); ++i) {
     if (ids_[i] != 0) kept_.push_back({ids_[i], joints_[i].first_row, joints_[i].rows});
@@ -144,6 +146,10 @@ int Joints::AddGear(const JointGear& a, const JointGear& b, std::uint64_t id) {
 }
 
 void Joints::Open(const JointSide& a, const JointSide& b) {
+  MakeRoom(1, &joints_);
+  MakeRoom(1, &ids_);
+  MakeRoom(Joint::kMostRows, &rows_);
+  MakeRoom(Joint::kMostRows, &impulses_);
   Joint& joint = joints_.emplace_back();
   joint.body_a = a.body;
   joint.body_b = b.body;

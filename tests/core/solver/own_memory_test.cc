@@ -310,6 +310,62 @@ TEST(OwnMemory, HoldsContactsAndJoints) {
   EXPECT_EQ(memory.blocks(), 0);
 }
 
+TEST(OwnMemory, ThatEndsInHelpersChangesNothing) {
+  const Body bodies[2] = {};
+  CountingMemory memory;
+  Contacts contacts({}, &memory);
+  Joints joints(0.2, &memory);
+  const auto fill = [&](int frame) {
+    const auto whole = [&](const auto& call) {
+      for (long allowed = 0;; ++allowed) {
+        memory.FailAfter(allowed);
+        try {
+          call();
+          memory.FailAfter(-1);
+          return allowed;
+        } catch (const std::bad_alloc&) {
+        }
+      }
+    };
+    long failures = whole([&] { contacts.Begin({.bodies = bodies}); });
+    failures += whole([&] { joints.Begin({.bodies = bodies}); });
+    for (int i = 0; i < 20 + 3 * frame; ++i) {
+      const auto id = static_cast<std::uint64_t>(i + 1);
+      const std::array<TouchPoint, 5> points = {TouchPoint{.depth = 0.1, .feature = 0},
+                                                {.depth = 0.2, .feature = 1},
+                                                {.depth = 0.3, .feature = 2},
+                                                {.depth = 0.4, .feature = 3},
+                                                {.depth = 0.5, .feature = 4}};
+      failures += whole([&] { contacts.Add({.body_a = i % 2, .id = id}, points); });
+      failures += whole([&] { joints.Add(HingeJoint(), {.body = i % 2}, {}, id); });
+    }
+    return failures;
+  };
+  long failures = 0;
+  for (int frame = 0; frame < 4; ++frame) {
+    failures += fill(frame);
+    ASSERT_EQ(contacts.points().size(), static_cast<size_t>(5 * (20 + 3 * frame)));
+    ASSERT_EQ(contacts.impulses().size(), contacts.points().size());
+    ASSERT_EQ(contacts.manifolds().size(), static_cast<size_t>(2 * (20 + 3 * frame)));
+    ASSERT_EQ(joints.joints().size(), static_cast<size_t>(20 + 3 * frame));
+    ASSERT_EQ(joints.impulses().size(), joints.rows().size());
+    // what is kept is found again
+    for (size_t i = 0; i < contacts.impulses().size(); ++i) {
+      if (frame > 0 && i < 100) {
+        ASSERT_EQ(contacts.impulses()[i].normal, static_cast<float>(i));
+      }
+      contacts.impulses()[i].normal = static_cast<float>(i);
+    }
+    for (size_t i = 0; i < joints.impulses().size(); ++i) {
+      if (frame > 0 && i < 100) {
+        ASSERT_EQ(joints.impulses()[i], static_cast<float>(i));
+      }
+      joints.impulses()[i] = static_cast<float>(i);
+    }
+  }
+  EXPECT_GT(failures, 10);
+}
+
 CairnMemory ToC(CountingMemory* memory) {
   return {.allocate =
               [](size_t bytes, size_t alignment, void* context) {
