@@ -85,7 +85,7 @@ struct HelperFrame {
       touches.push_back(random.NextTouch(i));
       points.push_back(random.NextPoints(touches.back(), 4));
       for (TouchPoint& point : points.back()) point.depth = 0.01;
-      joints.push_back(kinds[i % 8].kind);  // the last of all are no kinds
+      joints.push_back(kinds[i % 8].kind);  // those behind hold nothing, or are of other forms
       const int b = i == 0 ? kWorld : i - 1;
       sides.push_back({random.NextSide(i), random.NextSide(b)});
     }
