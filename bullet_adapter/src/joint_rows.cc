@@ -8,6 +8,7 @@
 #include <limits>
 #include <typeinfo>
 
+#include "cairn/detail/stiffness.h"
 #include "conversions.h"
 #include "prefetch.h"
 
@@ -140,6 +141,7 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
     return number == kWorld ? nullptr : &bodies_->motion(number);
   };
   const Ends ends{a, b, motion(end_a.number), motion(end_b.number), end_a.number, end_b.number};
+  TakeBackLess(ends.body_a, ends.body_b);
   LookAtLocked(ends, damping);
   result.written_out = form == ContactForm::kRows || !IsCompact();
   if (result.written_out) {
@@ -152,6 +154,17 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
     AppendCompact(ends, max_sweeps, damping);
   }
   return result;
+}
+
+void JointRowBuilder::TakeBackLess(int body_a, int body_b) {
+  const auto strain = [this](int body) {
+    return body == kWorld ? 0 : bodies_->bodies()[body].strain;
+  };
+  const double share = ShareOfErp(std::max(strain(body_a), strain(body_b)));
+  if (share == 1) return;
+  for (Slot& slot : slots_) {
+    if (!slot.drives) slot.error *= static_cast<btScalar>(share);
+  }
 }
 
 void JointRowBuilder::LookAtLocked(const Ends& ends, btScalar damping) {
@@ -221,6 +234,7 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSol
   const btScalar breaking = NotBelowZero(joint->getBreakingImpulseThreshold());
   for (Slot& slot : slots_) {
     slot.cfm = NotBelowZero(slot.cfm);
+    slot.drives = slot.lower > -SIMD_INFINITY && slot.upper < SIMD_INFINITY;
     if (slot.upper >= breaking) slot.upper = breaking;
     if (slot.lower <= -breaking) slot.lower = -breaking;
   }

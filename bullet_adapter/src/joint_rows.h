@@ -46,6 +46,7 @@ class JointRowBuilder {
     btScalar linear_a[4], angular_a[4], linear_b[4], angular_b[4];
     btScalar error, cfm, lower, upper;
     btScalar share;  ///< Of the diagonal of a row that only turns: what angular factors leave.
+    bool drives;     ///< Has two bounds of its own, as motors and springs do: its error is a speed.
   };
 
   /// The bodies of a joint. Motions of those that have a number, none for others.
@@ -60,6 +61,8 @@ class JointRowBuilder {
                         SweepLimits limits, ContactForm form);
   /// Asks the joint for its rows. Returns their damping.
   btScalar FillSlots(btTypedConstraint* joint, const btContactSolverInfo& info);
+  /// Where a body is strained, joints take back less of their errors.
+  void TakeBackLess(int body_a, int body_b);
   /// Takes bodies out of rows that only turn, about axes that they are locked about, and finds
   /// Slot::share.
   void LookAtLocked(const Ends& ends, btScalar damping);

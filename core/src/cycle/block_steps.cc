@@ -5,6 +5,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "cycle/joint_arms.h"
+
 namespace cairn {
 namespace {
 
@@ -76,10 +78,33 @@ void BlockSteps::ReadStrains() {
   if (!frame_->strained()) return;
   const std::span<const int> island_of_body = frame_->plan().island_of_body();
   strains_.assign(frame_->plan().islands().size(), 0);
+  FindLimited();
   for (size_t i = 0; i < problem_->bodies.size(); ++i) {
     const int island = island_of_body[i];
     if (island < 0 || limited_[island] != 0) continue;
     strains_[island] = std::max(strains_[island], problem_->bodies[i].strain);
+  }
+}
+
+void BlockSteps::FindLimited() {
+  const std::span<const int> island_of_body = frame_->plan().island_of_body();
+  limited_.assign(frame_->plan().islands().size(), 0);
+  const auto limit = [&](const auto& between) {
+    for (const int body : {between.body_a, between.body_b}) {
+      if (body != kWorld && island_of_body[body] >= 0) limited_[island_of_body[body]] = 1;
+    }
+  };
+  for (const Joint& joint : problem_->joints) {
+    if (joint.bounded == 0) continue;
+    const JointRow* const rows = &problem_->joint_rows[joint.first_row];
+    for (int i = 0; i < joint.rows; ++i) {
+      if (!IsTwoSided(joint, rows, i)) limit(joint);
+    }
+  }
+  for (const Row& row : problem_->rows) {
+    // a limit that pushes is not told from a contact
+    const bool pushes = row.lo == 0 && row.hi == kInfinity;
+    if (row.parent == kNoRow && !pushes && !IsTwoSided(row.lo, row.hi)) limit(row);
   }
 }
 
@@ -97,7 +122,6 @@ void BlockSteps::ReadPlan() {
 
 void BlockSteps::ReadIslands() {
   const Plan& plan = frame_->plan();
-  limited_.assign(plan.islands().size(), 0);
   keys_.assign(plan.islands().size(), ~std::uint64_t{0});
   set_up_.assign(plan.islands().size(), kSetUpIsland);
   scalar_set_up_.assign(plan.islands().size(), 0);
@@ -106,12 +130,8 @@ void BlockSteps::ReadIslands() {
     const bool joints =
         std::any_of(block.rows, block.rows + block.row_count,
                     [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
-    const bool limited =
-        std::any_of(block.rows, block.rows + block.row_count,
-                    [](const simd::RowShape& row) { return row.bound == simd::RowBound::kOwn; });
     for (int lane = 0; lane < block.lanes; ++lane) {
       const int island = plan.island_of(b, lane);
-      if (limited) limited_[island] = 1;
       set_up_[island] += block.row_count * (joints ? kSetUpJointRow : kSetUpRow);
       scalar_set_up_[island] += block.row_count * (joints ? kScalarJointRow : kScalarRow);
     }

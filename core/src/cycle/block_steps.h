@@ -54,8 +54,8 @@ class BlockSteps {
   /// many, less a margin; at least those, and at most twice as many.
   int SweepsOfEffort(int island, int iterations) const;
   bool HasJoints(int island) const { return frame_->plan().islands()[island].joints; }
-  /// The largest Body::strain on an island whose joints have neither limits nor motors: steps on
-  /// those throw bodies at times.
+  /// The largest Body::strain on an island whose joints have no limits: steps on those throw bodies
+  /// at times.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// How many factorisations the next step on an island may make.
   void Limit(int island, int factorisations) { limits_[island] = factorisations; }
@@ -88,6 +88,7 @@ class BlockSteps {
   IslandMemory* MemoryOf(int island);
   void ReadPlan();
   void ReadStrains();
+  void FindLimited();
   void ReadIslands();
   void CountLines();
   void CountStepLines();
@@ -146,7 +147,7 @@ class BlockSteps {
   };
   Array<LanesOfShape> lanes_of_shapes_;
   Array<int> latest_shape_;    ///< by island: its place in there
-  Array<char> limited_;        ///< by island: some row has bounds of its own
+  Array<char> limited_;        ///< by island: some row has a limit; if any body is strained
   Array<double> strains_;      ///< by island, none if no body is strained
   Array<std::uint64_t> keys_;  ///< by island
   Array<IslandMemory*> memory_of_island_;

@@ -24,10 +24,20 @@ bool AreAxes(const Vectors& vector) {
   return true;
 }
 
-/// Three rows that follow each other hold a point: they have no bounds, and their linear parts are
-/// axes. @param rows  of the joint; @param first  the first of the three
+/// Pulls and pushes alike: has no bounds, or those of what may break and of motors.
+inline bool IsTwoSided(double lo, double hi) { return lo == -hi; }
+
+inline bool IsTwoSided(const Joint& joint, const JointRow* rows, int row) {
+  return !joint.is_bounded(row) || IsTwoSided(rows[row].lo, rows[row].hi);
+}
+
+/// Three rows that follow each other hold a point: they pull and push alike, and their linear parts
+/// are axes. @param rows  of the joint; @param first  the first of the three
 inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
-  if (((joint.bounded | joint.angular) >> first & 7) != 0) return false;
+  if ((joint.angular >> first & 7) != 0) return false;
+  for (int row = first; row < first + 3; ++row) {
+    if (!IsTwoSided(joint, rows, row)) return false;
+  }
   const bool of_a = joint.body_a != kWorld || joint.opposite;
   return AreAxes([&](int i) -> const float(&)[3] {
     return of_a ? rows[first + i].linear_a : rows[first + i].linear_b;

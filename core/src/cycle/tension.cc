@@ -26,7 +26,30 @@ ContactProblem Tension::Stiffen(const ContactProblem& problem, const Settings& s
   stiffness_.Apply(problem.time_step / settings.substeps, problem, bodies_);
   ContactProblem stiff = problem;
   stiff.bodies = bodies_;
+  TakeBackLess(&stiff);
   return stiff;
+}
+
+void Tension::TakeBackLess(ContactProblem* problem) {
+  joint_rows_.clear();
+  const size_t bodies = problem->bodies.size(), rows = problem->joint_rows.size();
+  const auto strain = [&](int body) {
+    return static_cast<size_t>(body) < bodies ? problem->bodies[body].strain : 0;
+  };
+  for (const Joint& joint : problem->joints) {
+    if (joint.errors == 0) continue;
+    const double share = ShareOfErp(std::max(strain(joint.body_a), strain(joint.body_b)));
+    if (share == 1) continue;
+    if (joint_rows_.empty()) {
+      joint_rows_.assign(problem->joint_rows.begin(), problem->joint_rows.end());
+    }
+    for (int i = 0; i < std::min(joint.rows, Joint::kMostRows); ++i) {
+      const size_t row = static_cast<size_t>(joint.first_row) + i;
+      if (row >= rows || (joint.errors >> i & 1) == 0) continue;
+      joint_rows_[row].target = static_cast<float>(share * joint_rows_[row].target);
+    }
+  }
+  if (!joint_rows_.empty()) problem->joint_rows = joint_rows_;
 }
 
 void Tension::Learn(const ContactProblem& problem, const Impulses& impulses,

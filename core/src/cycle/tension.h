@@ -10,8 +10,9 @@ namespace cairn {
 /// Geometric stiffness around the solves of a Solver: what Settings::geometric_stiffness asks for.
 class Tension {
  public:
-  /// The problem, with the inertia of its bodies raised where their joints pulled too hard before;
-  /// as it is where nothing did. It need not be valid. Valid until the next call.
+  /// The problem, with the inertia of its bodies raised where their joints pulled too hard before,
+  /// and with rows of Joint::errors that ask for less there; as it is where nothing did. It need
+  /// not be valid. Valid until the next call.
   ContactProblem Stiffen(const ContactProblem& problem, const Settings& settings);
   /// Remembers what joints pull with in a problem that Stiffen() was asked about, as solved. Where
   /// there is no memory for that, all is forgotten.
@@ -20,8 +21,12 @@ class Tension {
   void Forget() { stiffness_.Reset(); }
 
  private:
+  /// Into joint_rows_, if any joint is that strained.
+  void TakeBackLess(ContactProblem* problem);
+
   GeometricStiffness stiffness_;
   Array<Body> bodies_;
+  Array<JointRow> joint_rows_;
   bool acts_ = false;
 };
 

@@ -297,6 +297,39 @@ TEST(Tension, StaysWithinABudgetOfWork) {
   }
 }
 
+/// Share of a gap of 2 cm at its top that a hanging chain takes back in a step, over the usual.
+double ShareTakenBack(Chain* chain) {
+  for (int step = 0; step < 60; ++step) chain->Step();
+  for (Thing& thing : chain->world.things) thing.position.y() -= 0.02;
+  const double before = -(chain->world.things[0].position + kTop).y();
+  chain->Step();
+  const double after = -(chain->world.things[0].position + kTop).y();
+  return (before - after) / (0.2 * before);
+}
+
+TEST(Tension, TakesGapsBackMoreSlowlyWhereItStrains) {
+  Chain light(3, 10, {}, 0), heavy(3, 3000, {}, 0), off(3, 3000, {.geometric_stiffness = false}, 0);
+  EXPECT_NEAR(ShareTakenBack(&light), 1, 0.01);
+  const double share = ShareTakenBack(&heavy);
+  EXPECT_GT(heavy.MostStrain(), 32) << "not a hard case";
+  EXPECT_NEAR(share, ShareOfErp(heavy.MostStrain()), 0.02);
+  EXPECT_LT(share, 0.5);
+  EXPECT_NEAR(ShareTakenBack(&off), 1, 0.01);
+  // the report tells what the gap asks for, and what was done of it
+  EXPECT_NEAR(heavy.world.report.gap.done, share * heavy.world.report.gap.asked, 0.002);
+}
+
+TEST(Tension, LeavesTheSpeedOfMotorsAlone) {
+  // the load hangs on an axis that a motor lowers it along
+  Chain chain(3, 3000, {}, 0);
+  for (int step = 0; step < 60; ++step) chain.Step();
+  ASSERT_GT(chain.MostStrain(), 32) << "not a hard case";
+  chain.top.linear[1] = {.speed = 0.25, .max_motor_force = 1e6};
+  const double before = chain.world.things[0].position.y();
+  chain.Step();
+  EXPECT_NEAR(std::abs(chain.world.things[0].position.y() - before) * 60, 0.25, 0.01);
+}
+
 // An engine that raised inertia itself before there was a setting keeps its results, and strains.
 TEST(Tension, IsNotAppliedTwice) {
   FirstStep with({}), without({.geometric_stiffness = false});

@@ -197,10 +197,15 @@ TEST(Stiffness, SaysHowMuchItStrains) {
   EXPECT_LT(Raised(test::HangingChain(3, 1), &calm)[0].strain, 2);
 }
 
+void Bound(double lo, double hi, Scene* scene) {
+  for (Row& row : scene->rows) row.lo = lo, row.hi = hi;
+}
+
 // Three links are so few that a step would take longer than all else, and heavy loads tear them.
 TEST(Stiffness, HasStepsTakenWhereItStrains) {
-  const auto steps = [](double strain) {
+  const auto steps = [](double strain, double lo, double hi) {
     Scene scene = test::HangingChain(3, 1000);
+    Bound(lo, hi, &scene);
     for (Body& body : scene.bodies) body.strain = strain;
     Settings settings{.max_sweeps = 10, .tolerance = 1e-4, .step_policy = StepPolicy::kWeighed};
     Solver solver(settings);
@@ -209,8 +214,25 @@ TEST(Stiffness, HasStepsTakenWhereItStrains) {
       taken += test::Solve(&solver, scene).report.steps_accepted;
     return taken;
   };
-  EXPECT_EQ(steps(0), 0);
-  EXPECT_GT(steps(5), 10);
+  EXPECT_EQ(steps(0, -kInfinity, kInfinity), 0);
+  EXPECT_GT(steps(5, -kInfinity, kInfinity), 10);
+  EXPECT_GT(steps(5, -1e6, 1e6), 10) << "as motors";
+  EXPECT_EQ(steps(5, -1e6, kInfinity), 0) << "as limits";
+}
+
+TEST(Stiffness, CountsWhatMayBreakAndNoLimits) {
+  const auto moment = [](double lo, double hi) {
+    Scene scene = test::HangingChain(3, 1000);
+    Bound(lo, hi, &scene);
+    GeometricStiffness stiffness;
+    SolveAndLearn(scene, &stiffness);
+    return 1 / Raised(scene, &stiffness)[0].inv_inertia(0, 0);
+  };
+  const double light = 1 / test::HangingChain(3, 1000).bodies[0].inv_inertia(0, 0);
+  const double raised = moment(-kInfinity, kInfinity);
+  EXPECT_GT(raised, 2 * light);
+  EXPECT_NEAR(moment(-1e6, 1e6), raised, 0.01 * raised);
+  EXPECT_EQ(moment(-1e6, kInfinity), light);
 }
 
 TEST(Stiffness, LearnsNothingFromWhatWasRefused) {
