@@ -31,9 +31,9 @@ inline bool IsTwoSided(const Joint& joint, const JointRow* rows, int row) {
   return !joint.is_bounded(row) || IsTwoSided(rows[row].lo, rows[row].hi);
 }
 
-/// Three rows that follow each other hold a point: they pull and push alike, and their linear parts
-/// are axes. @param rows  of the joint; @param first  the first of the three
-inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
+/// Three rows that follow each other pull at a point: they pull and push alike, and their linear
+/// parts are axes. @param rows  of the joint; @param first  the first of the three
+inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
   if ((joint.angular >> first & 7) != 0) return false;
   for (int row = first; row < first + 3; ++row) {
     if (!IsTwoSided(joint, rows, row)) return false;
@@ -42,6 +42,11 @@ inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
   return AreAxes([&](int i) -> const float(&)[3] {
     return of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
   });
+}
+
+/// Three rows that pull at a point and have no bounds, so that they hold it.
+inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
+  return (joint.bounded >> first & 7) == 0 && PullAtPoint(joint, rows, first);
 }
 
 /// Three rows of a joint that follow each other, as columns.

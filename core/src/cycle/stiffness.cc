@@ -293,7 +293,7 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
     if (!IsPulled(joint.body_a) && !IsPulled(joint.body_b)) continue;
     for (int row = 0; row + 3 <= joint.rows;) {
       const JointRow* const of_joint = &problem.joint_rows[joint.first_row];
-      if (!HoldPoint(joint, of_joint, row)) {
+      if (!PullAtPoint(joint, of_joint, row)) {
         ++row;
         continue;
       }

@@ -225,7 +225,7 @@ TEST(Stiffness, CountsWhatMayBreakAndNoLimits) {
     Scene scene = test::HangingChain(3, 1000);
     Bound(lo, hi, &scene);
     GeometricStiffness stiffness;
-    SolveAndLearn(scene, &stiffness);
+    SolveAndLearn(scene, &stiffness, test::AlwaysSteps(3000));
     return 1 / Raised(scene, &stiffness)[0].inv_inertia(0, 0);
   };
   const double light = 1 / test::HangingChain(3, 1000).bodies[0].inv_inertia(0, 0);
