@@ -21,7 +21,8 @@ struct WindowOptions {
 struct ThreadOptions {
   WindowOptions window;
   std::vector<int> threads = {1, 2};
-  int gaps = 0;  ///< PrintScaling() alone: so many stretches between stages.
+  int gaps = 0;        ///< PrintScaling() alone: so many stretches between stages.
+  bool parts = false;  ///< PrintThreads() alone: also what threads are busy with.
 };
 /// Wall time of substeps of ten plain sweeps on so many threads each, in worlds that Cairn drives:
 /// reading, solving, writing back, and the whole step of the world.

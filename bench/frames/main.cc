@@ -100,6 +100,8 @@ int Main(int count, char** arguments) {
   AddScenes(threads_app, &thread_scenes);
   AddFrames(threads_app, &threads.window.frame, &threads.window.frames);
   AddThreads(threads_app, &threads.threads);
+  threads_app->add_flag("--parts", threads.parts,
+                        "Also what threads are busy with; reads the clock at each unit of work");
 
   ThreadOptions scaling{.window = {.scenes = {}, .frame = 60, .frames = 20},
                         .threads = {1, 2, 4, 8, 16}};

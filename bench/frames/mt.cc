@@ -7,6 +7,8 @@
 #include <cairn/bullet/task_scheduler.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -90,40 +92,60 @@ class Boxes {
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };
 
-/// A world on so many threads, its own scheduler and solvers with it, and what its steps took [ms].
+/// What the parts of a step took [ms].
+struct StepTimes {
+  double step = 0, collisions = 0, islands = 0, solver = 0;
+  double rest() const { return step - collisions - islands - solver; }
+};
+
+/// Adds what a call takes to a time.
+template <class Call>
+void Time(double* time, const Call& call) {
+  const cli::Stopwatch stopwatch(cli::SolverClock::kWall);
+  call();
+  *time += stopwatch.Read();
+}
+
+/// A world on so many threads, its own scheduler and solvers with it.
 class Contestant {
  public:
   virtual ~Contestant() = default;
   void Step(bool keep) {
     btSetTaskScheduler(&scheduler());
-    const cli::Stopwatch stopwatch(cli::SolverClock::kWall);
-    world().stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60);
-    if (!keep) return;
-    steps.push_back(stopwatch.Read());
-    solvers.push_back(solver_time());
+    times() = {};
+    Time(&times().step, [&] { world().stepSimulation(btScalar(1) / 60, 0, btScalar(1) / 60); });
+    if (keep) steps_.push_back(times());
   }
-  std::vector<double> steps, solvers;
+  const std::vector<StepTimes>& steps() const { return steps_; }
 
  protected:
   virtual btITaskScheduler& scheduler() = 0;
   virtual btDiscreteDynamicsWorldMt& world() = 0;
-  virtual double solver_time() const = 0;
-};
-
-/// Measures what solving takes, islands apart: from the first group to the last.
-template <class World>
-class TimedIslands final : public World {
- public:
-  using World::World;
-  double solver_time() const { return solver_time_; }
+  virtual StepTimes& times() = 0;
 
  private:
-  void solveConstraints(btContactSolverInfo& info) override {
-    const cli::Stopwatch stopwatch(cli::SolverClock::kWall);
-    World::solveConstraints(info);
-    solver_time_ = stopwatch.Read();
+  std::vector<StepTimes> steps_;
+};
+
+/// Measures what its parts take.
+class TimedWorld final : public btDiscreteDynamicsWorldMt {
+ public:
+  using btDiscreteDynamicsWorldMt::btDiscreteDynamicsWorldMt;
+  StepTimes times;
+
+  void performDiscreteCollisionDetection() override {
+    Time(&times.collisions, [this] { Base::performDiscreteCollisionDetection(); });
   }
-  double solver_time_ = 0;
+
+ private:
+  using Base = btDiscreteDynamicsWorldMt;
+  void calculateSimulationIslands() override {
+    Time(&times.islands, [this] { Base::calculateSimulationIslands(); });
+  }
+  /// From the first group to the last.
+  void solveConstraints(btContactSolverInfo& info) override {
+    Time(&times.solver, [&] { Base::solveConstraints(info); });
+  }
 };
 
 class OfCairn final : public Contestant {
@@ -132,22 +154,22 @@ class OfCairn final : public Contestant {
       : scheduler_(threads), pool_(Sweeps(kIterations, threads)) {
     btSetTaskScheduler(&scheduler_);
     dispatcher_ = std::make_unique<btCollisionDispatcherMt>(&configuration_);
-    world_ = std::make_unique<TimedIslands<btDiscreteDynamicsWorldMt>>(
-        dispatcher_.get(), &broadphase_, &pool_, nullptr, &configuration_);
+    world_ = std::make_unique<TimedWorld>(dispatcher_.get(), &broadphase_, &pool_, nullptr,
+                                          &configuration_);
     boxes_ = std::make_unique<Boxes>(kind, world_.get());
   }
 
  private:
   btITaskScheduler& scheduler() override { return scheduler_; }
   btDiscreteDynamicsWorldMt& world() override { return *world_; }
-  double solver_time() const override { return world_->solver_time(); }
+  StepTimes& times() override { return world_->times; }
 
   bullet::TaskScheduler scheduler_;
   bullet::ConstraintSolverPool pool_;
   btDefaultCollisionConfiguration configuration_;
   std::unique_ptr<btCollisionDispatcherMt> dispatcher_;
   btDbvtBroadphase broadphase_;
-  std::unique_ptr<TimedIslands<btDiscreteDynamicsWorldMt>> world_;
+  std::unique_ptr<TimedWorld> world_;
   std::unique_ptr<Boxes> boxes_;
 };
 
@@ -158,8 +180,8 @@ class OfBullet final : public Contestant {
     scheduler_->setNumThreads(threads);
     btSetTaskScheduler(scheduler_.get());
     dispatcher_ = std::make_unique<btCollisionDispatcherMt>(&configuration_);
-    world_ = std::make_unique<TimedIslands<btDiscreteDynamicsWorldMt>>(
-        dispatcher_.get(), &broadphase_, &pool_, &large_, &configuration_);
+    world_ = std::make_unique<TimedWorld>(dispatcher_.get(), &broadphase_, &pool_, &large_,
+                                          &configuration_);
     boxes_ = std::make_unique<Boxes>(kind, world_.get());
   }
   ~OfBullet() override {
@@ -170,7 +192,7 @@ class OfBullet final : public Contestant {
  private:
   btITaskScheduler& scheduler() override { return *scheduler_; }
   btDiscreteDynamicsWorldMt& world() override { return *world_; }
-  double solver_time() const override { return world_->solver_time(); }
+  StepTimes& times() override { return world_->times; }
 
   std::unique_ptr<btITaskScheduler> scheduler_;
   btConstraintSolverPoolMt pool_;
@@ -178,9 +200,26 @@ class OfBullet final : public Contestant {
   btDefaultCollisionConfiguration configuration_;
   std::unique_ptr<btCollisionDispatcherMt> dispatcher_;
   btDbvtBroadphase broadphase_;
-  std::unique_ptr<TimedIslands<btDiscreteDynamicsWorldMt>> world_;
+  std::unique_ptr<TimedWorld> world_;
   std::unique_ptr<Boxes> boxes_;
 };
+
+/// In a world that is gone when it returns: threads of one that wait for work delay another.
+template <class World>
+std::vector<StepTimes> StepsOf(Boxes::Kind kind, int threads, const WindowOptions& window) {
+  World world(kind, threads);
+  for (int frame = 0; frame < window.frame + window.frames; ++frame) {
+    world.Step(frame >= window.frame);
+  }
+  return world.steps();
+}
+
+template <class Value>
+double MedianOf(const std::vector<StepTimes>& steps, const Value& value) {
+  std::vector<double> values;
+  for (const StepTimes& times : steps) values.push_back(std::invoke(value, times));
+  return cli::Median(values);
+}
 
 }  // namespace
 
@@ -193,31 +232,35 @@ void PrintMtWorlds(const ThreadOptions& options, const std::string& command) {
       "- btDiscreteDynamicsWorldMt, ten iterations, no subspace step; Bullet: its scheduler, its "
       "pool and\n  btSequentialImpulseConstraintSolverMt; Cairn: TaskScheduler and "
       "ConstraintSolverPool\n"
-      "- {} frames, the worlds in turn; medians, wall clock, ms. Solver: islands and all that is "
-      "done to them\n\n",
+      "- {} frames, one world after the other; medians, wall clock, ms. Solver: from the first "
+      "group to "
+      "the last\n\n",
       options.window.frames);
   cli::TextTable table =
-      cli::TableOf({"scene", "threads", "step, Bullet", "of it solver", "step, Cairn",
-                    "of it solver", "Bullet / Cairn, solver", "Cairn's step on one / this"});
+      cli::TableOf({"scene", "threads", "solver of", "step", "collisions", "islands", "solver",
+                    "rest", "step on one / this", "Bullet / Cairn, solver"});
   for (const auto& [kind, name] : {std::pair{Boxes::Kind::kPyramid, "pyramid of 5050"},
                                    {Boxes::Kind::kRain, "3150 falling"}}) {
-    double one = 0;
+    std::array<double, 2> one{};
     for (const int threads : options.threads) {
-      OfBullet bullet(kind, threads);
-      OfCairn cairn(kind, threads);
-      for (int frame = 0; frame < options.window.frame + options.window.frames; ++frame) {
-        bullet.Step(frame >= options.window.frame);
-        cairn.Step(frame >= options.window.frame);
-      }
-      const auto ms = [](const std::vector<double>& times) {
-        return fmt::format("{:.2f}", cli::Median(times));
+      const auto bullet = StepsOf<OfBullet>(kind, threads, options.window);
+      const auto cairn = StepsOf<OfCairn>(kind, threads, options.window);
+      const auto add = [&](const char* who, const std::vector<StepTimes>& steps, double* first,
+                           std::string ratio) {
+        const double step = MedianOf(steps, &StepTimes::step);
+        if (*first == 0) *first = step;
+        const auto ms = [&](const auto& part) {
+          return fmt::format("{:.2f}", MedianOf(steps, part));
+        };
+        table.rows.push_back({name, fmt::format("{}", threads), who, ms(&StepTimes::step),
+                              ms(&StepTimes::collisions), ms(&StepTimes::islands),
+                              ms(&StepTimes::solver), ms(&StepTimes::rest),
+                              fmt::format("{:.2f}", *first / step), std::move(ratio)});
       };
-      if (one == 0) one = cli::Median(cairn.steps);
-      table.rows.push_back(
-          {name, fmt::format("{}", threads), ms(bullet.steps), ms(bullet.solvers), ms(cairn.steps),
-           ms(cairn.solvers),
-           fmt::format("{:.1f}", cli::Median(bullet.solvers) / cli::Median(cairn.solvers)),
-           fmt::format("{:.2f}", one / cli::Median(cairn.steps))});
+      const double ratio =
+          MedianOf(bullet, &StepTimes::solver) / MedianOf(cairn, &StepTimes::solver);
+      add("Bullet", bullet, &one[0], "");
+      add("Cairn", cairn, &one[1], fmt::format("{:.1f}", ratio));
     }
   }
   fmt::print("{}\n", table.ToMarkdown());

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,20 +94,51 @@ Forecast Predict(std::span<const Span> spans, double whole, int threads, double 
   return forecast;
 }
 
-/// The end of a stage on two threads [us], where there are two.
-double MeasureBarrier() {
-  constexpr int kStages = 20000, kParts = 8;
-  detail::Threads threads;
-  threads.Follow(2, nullptr);
-  const detail::AwakeHelpers awake(&threads, 2);
+/// The end of a stage of little work on so many threads [us].
+double MeasureBarrier(int threads) {
+  constexpr int kStages = 20000, kPartsOfThread = 4;
+  detail::Threads team;
+  team.Follow(threads, nullptr);
+  const detail::AwakeHelpers awake(&team, threads);
   const auto nothing = [](int, int) {};
-  threads.For(kParts * 1000, 1, nothing);
+  const int parts = kPartsOfThread * threads;
+  team.For(parts * 1000, 1, nothing);
   const auto begin = Span::Clock::now();
-  for (int i = 0; i < kStages; ++i) threads.For(kParts, 1, nothing);
+  for (int i = 0; i < kStages; ++i) team.For(parts, 1, nothing);
   return Microseconds(Span::Clock::now() - begin) / kStages;
 }
 
-/// What one thread does alone between two stages, or in a stage of one unit.
+/// By the number of threads: measured on as many as there are cores for, beyond that taken to grow
+/// with the logarithm of their number.
+class Barriers {
+ public:
+  Barriers(const std::vector<int>& threads, int cores) {
+    for (const int count : threads) {
+      if (count > 1 && count <= cores) measured_.emplace(count, MeasureBarrier(count));
+    }
+    if (measured_.empty()) measured_.emplace(2, MeasureBarrier(2));
+  }
+  double operator()(int threads) const {
+    if (threads == 1) return 0;
+    const auto known = measured_.find(threads);
+    if (known != measured_.end()) return known->second;
+    const auto [most, us] = *measured_.rbegin();
+    return us * std::log2(threads) / std::log2(most);
+  }
+  std::string Describe() const {
+    std::string text;
+    for (const auto& [threads, us] : measured_) {
+      text += fmt::format("{}{:.2f} us on {}", text.empty() ? "" : ", ", us, threads);
+    }
+    return text;
+  }
+
+ private:
+  std::map<int, double> measured_;
+};
+
+/// What one thread does alone between two stages, or in a stage of one unit; and stages of so few
+/// units that threads have none.
 struct Alone {
   std::string after, before;
   std::vector<double> us;  ///< of each frame, 0 where there was none
@@ -114,7 +146,7 @@ struct Alone {
 };
 
 /// Adds what happened in @p frame, which is one more than before.
-void AddAlone(std::span<const Span> spans, size_t frame, std::vector<Alone>* alone) {
+void AddAlone(std::span<const Span> spans, size_t frame, int threads, std::vector<Alone>* alone) {
   const auto add = [&](std::string_view after, std::string_view before, double us) {
     auto at = std::find_if(alone->begin(), alone->end(), [&](const Alone& known) {
       return known.after == after && known.before == before;
@@ -133,7 +165,10 @@ void AddAlone(std::span<const Span> spans, size_t frame, std::vector<Alone>* alo
     const std::string_view kind = Describe(span.label.kind);
     add(last != nullptr ? Describe(last->label.kind) : "the begin", kind,
         Microseconds(span.begin - (last != nullptr ? last->end : spans.front().begin)));
-    if (span.units == 1) add("one unit of", kind, Microseconds(span.end - span.begin));
+    if (span.units < threads) {
+      add(fmt::format("{} unit{} of", span.units, span.units == 1 ? "" : "s"), kind,
+          Microseconds(span.end - span.begin) / span.units);
+    }
     last = &span;
   }
   if (last != nullptr) {
@@ -201,7 +236,7 @@ std::string SerialParts(const std::vector<Forecast>& forecasts) {
 
 void PrintScaling(const ThreadOptions& options, const std::string& command) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
-  const double barrier = MeasureBarrier();
+  const Barriers barriers(options.threads, cores);
   fmt::print("{}", cli::Origin("Scaling: what substeps of ten plain sweeps would take on so many "
                                "threads",
                                cli::DescribeContext(command)));
@@ -209,12 +244,12 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
       "- {} frames, medians, ms. One thread does what is cut for so many, and spans say what "
       "others could have done:\n"
       "  serial: nobody could; shared: the rest, evenly; imbalance: what rounds of whole units "
-      "add; barriers: {:.2f} us\n"
-      "  a stage on two threads, measured here, and taken to grow with the logarithm of their "
-      "number\n"
+      "add; barriers: a stage\n"
+      "  of little work, measured here: {} threads; beyond, taken to grow with the logarithm of "
+      "their number\n"
       "- not in it: caches and memory that cores share, and cores that slow each other down\n"
       "- measured: as many threads, where there are as many cores ({})\n\n",
-      options.window.frames, barrier, cores);
+      options.window.frames, barriers.Describe(), cores);
   cli::TextTable table =
       cli::TableOf({"scene", "threads", "serial", "shared", "imbalance", "barriers", "predicted",
                     "measured", "ratio to one", "serial by part"});
@@ -225,7 +260,6 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
       Nobody nobody;
       const bool can = threads <= cores;
       World cut(scene, threads, &nobody), real(scene, can ? threads : 1, nullptr);
-      const double end_of_stage = barrier * std::log2(std::max(2, threads));
       std::vector<Forecast> forecasts;
       std::vector<double> measured;
       const bool with_gaps = options.gaps > 0 && threads == options.threads.back();
@@ -234,8 +268,8 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
         if (frame == first) cut.Record();
         const double whole = cut.Step(), took = can ? real.Step() : 0;
         if (frame < first) continue;
-        if (with_gaps) AddAlone(cut.spans(), forecasts.size(), &alone);
-        forecasts.push_back(Predict(cut.spans(), whole, threads, end_of_stage));
+        if (with_gaps) AddAlone(cut.spans(), forecasts.size(), threads, &alone);
+        forecasts.push_back(Predict(cut.spans(), whole, threads, barriers(threads)));
         measured.push_back(took);
       }
       const double predicted =

@@ -15,8 +15,8 @@ SpanTimes::SpanTimes(std::span<const Span> spans) {
     const auto kind = static_cast<size_t>(span.label.kind);
     const double time = std::chrono::duration<double, std::micro>(span.end - span.begin).count();
     if (span.begin >= outer) {
-      // told apart from reading and writing, in which it is done
-      if (span.label.kind != SpanKind::kTension) continue;
+      // told apart from what they are part of
+      if (span.label.kind != SpanKind::kTension && span.label.kind != SpanKind::kWait) continue;
       times_[outer_kind] -= time;
       times_[kind] += time;
       continue;

@@ -9,7 +9,7 @@
 namespace cairn::frames {
 
 /// Wall time of a thread by what it was busy with [us]; of spans that contain others only the outer
-/// ones count.
+/// ones count, less waits and tension in them.
 class SpanTimes {
  public:
   SpanTimes() = default;

@@ -25,6 +25,8 @@ constexpr int kSpins = 4000;
 constexpr int kClaims = 256;
 /// And for each thread: more would balance better than stages need, and cost more to claim.
 constexpr int kClaimsOfThread = 16;
+/// Threads that have a share of a stage of their own; others take from those.
+constexpr int kShares = 64;
 
 void Pause() {
 #if defined(__SSE2__)
@@ -44,16 +46,58 @@ class Patience {
   int waits_ = 0;
 };
 
-/// A stage that helpers may work on: its number since the beginning of time, and its claims.
+/// A stage that helpers may work on: its number since the beginning of time, and its claims, cut
+/// into shares.
 struct Stage {
   std::uint64_t number;
-  int claims;
+  int claims, shares;
 
-  static constexpr int kClaimBits = 16;
-  std::uint64_t Packed() const { return number << kClaimBits | static_cast<std::uint64_t>(claims); }
-  static Stage Unpack(std::uint64_t packed) {
-    return {packed >> kClaimBits, static_cast<int>(packed & ((1 << kClaimBits) - 1))};
+  static constexpr int kClaimBits = 9, kShareBits = 7;
+  static_assert(kClaims < 1 << kClaimBits && kShares < 1 << kShareBits);
+
+  std::uint64_t Packed() const {
+    return (number << kClaimBits | static_cast<std::uint64_t>(claims)) << kShareBits |
+           static_cast<std::uint64_t>(shares);
   }
+  static Stage Unpack(std::uint64_t packed) {
+    const auto low = [&packed](int bits) {
+      const auto value = static_cast<int>(packed & ((std::uint64_t{1} << bits) - 1));
+      packed >>= bits;
+      return value;
+    };
+    const int shares = low(kShareBits), claims = low(kClaimBits);
+    return {packed, claims, shares};
+  }
+
+  /// Where a share begins, and the one before it ends.
+  int Begin(int share) const { return claims * share / shares; }
+};
+
+/// A part of the claims of a stage, which one thread takes first. It has a cache line of its own:
+/// a thread that is undisturbed claims without a word to others.
+class alignas(128) Share {
+ public:
+  /// The next claim of a stage that nobody has, of @p begin to @p end; -1: none is left.
+  int Claim(std::uint64_t stage, int begin, int end) {
+    std::uint64_t last = next_.load(std::memory_order_relaxed);
+    for (;;) {
+      const std::uint64_t at = last >> kBits;
+      // a stage of a later number has been here: this one is done
+      if (at > stage) return -1;
+      const int claim = at < stage ? begin : static_cast<int>(last & kMask);
+      if (claim >= end) return -1;
+      const std::uint64_t next = stage << kBits | static_cast<std::uint64_t>(claim + 1);
+      if (next_.compare_exchange_weak(last, next, std::memory_order_acq_rel,
+                                      std::memory_order_relaxed)) {
+        return claim;
+      }
+    }
+  }
+
+ private:
+  static constexpr int kBits = Stage::kClaimBits;
+  static constexpr std::uint64_t kMask = (1 << kBits) - 1;
+  std::atomic<std::uint64_t> next_{0};  ///< number of a stage, then a claim
 };
 
 /// What helpers see. It lives until the last of them has gone, and nothing else is touched by a
@@ -109,14 +153,15 @@ class Board : public detail::Placed {
       for (int unit = 0; unit < units; ++unit) work->Do(stage, unit);
       return;
     }
-    const int claims = std::min({units, kClaims, kClaimsOfThread * (most_helpers() + 1)});
+    const int threads = most_helpers() + 1;
+    const int claims = std::min({units, kClaims, kClaimsOfThread * threads});
     work_.store(work, std::memory_order_relaxed);
     stage_.store(stage, std::memory_order_relaxed);
     units_.store(units, std::memory_order_relaxed);
     done_.store(0, std::memory_order_relaxed);
-    const Stage now{++number_, claims};
+    const Stage now{++number_, claims, std::min(threads, kShares)};
     published_.store(now.Packed(), std::memory_order_release);
-    Attend(now, {});
+    Attend(now, 0);
     // what is claimed is being worked on by a running thread: this wait ends
     {
       const SpanClock clock(recorder, 0, {SpanKind::kWait});
@@ -137,24 +182,18 @@ class Board : public detail::Placed {
       return;
     }
     const detail::MemoryScope scope(memory_);
-    const Helper helper{homes_.fetch_add(1, std::memory_order_relaxed) + 1, TakeLane()};
+    const int lane = TakeLane();
     do {
-      HelpWhileOpen(helper);
+      HelpWhileOpen(lane);
       helpers_.fetch_sub(1);
       // opened again in between: whoever opened it may have counted on this helper
     } while (open_.load() && Expect());
-    GiveBack(helper.lane);
+    GiveBack(lane);
   }
 
   void RecordTo(SpanRecorder* recorder) { recorder_.store(recorder, std::memory_order_relaxed); }
 
  private:
-  /// A thread at work; the caller has the first of both.
-  struct Helper {
-    int home = 0;  ///< where it begins to claim
-    int lane = 0;  ///< of the record; nobody else has it
-  };
-
   bool TakeTask() {
     int tasks = tasks_.load();
     while (tasks > 0 && !tasks_.compare_exchange_weak(tasks, tasks - 1)) continue;
@@ -166,7 +205,9 @@ class Board : public detail::Placed {
     return recorder != nullptr ? work.label(stage) : SpanLabel{};
   }
 
-  /// The lowest lane that nobody has; one that is not recorded if all are taken.
+  /// The lowest lane that nobody has; one that is not recorded if all are taken. The caller has the
+  /// first. A lane says whose share a helper begins with, so that it meets the same units in every
+  /// sweep, and where what it does is recorded.
   int TakeLane() {
     std::uint64_t taken = lanes_.load(std::memory_order_relaxed);
     while (~taken != 0) {
@@ -181,7 +222,7 @@ class Board : public detail::Placed {
     lanes_.fetch_and(~(std::uint64_t{1} << lane), std::memory_order_release);
   }
 
-  void HelpWhileOpen(const Helper& helper) {
+  void HelpWhileOpen(int lane) {
     std::uint64_t seen = 0;
     Patience patience;
     while (open_.load(std::memory_order_acquire)) {
@@ -191,31 +232,29 @@ class Board : public detail::Placed {
         continue;
       }
       seen = packed;
-      Attend(Stage::Unpack(packed), helper);
+      Attend(Stage::Unpack(packed), lane);
       patience = {};
     }
   }
 
-  /// Claims what is left of a stage, from home on.
-  void Attend(const Stage& stage, const Helper& helper) {
-    if (stage.claims == 0) return;
-    const int threads = most_helpers_.load(std::memory_order_relaxed) + 1;
-    const int first = stage.claims * (helper.home % threads) / threads;
-    for (int i = 0; i < stage.claims; ++i) {
-      const int claim = first + i < stage.claims ? first + i : first + i - stage.claims;
-      std::uint64_t last = claimed_[claim].load(std::memory_order_relaxed);
-      // a stage of a later number has been here: this one is done
-      if (last >= stage.number) continue;
-      if (!claimed_[claim].compare_exchange_strong(last, stage.number, std::memory_order_acq_rel)) {
-        continue;
+  /// Does what is left of a stage, from its own share on.
+  void Attend(const Stage& stage, int lane) {
+    for (int i = 0; i < stage.shares; ++i) {
+      const int share = (lane + i) % stage.shares;
+      const int begin = stage.Begin(share), end = stage.Begin(share + 1);
+      int done = 0;
+      for (int claim; (claim = shares_[share].Claim(stage.number, begin, end)) >= 0; ++done) {
+        try {
+          DoClaim(claim, stage.claims, lane);
+        } catch (...) {
+          // the caller throws it, when nobody is at work any more
+          if (!failed_.exchange(true, std::memory_order_relaxed)) {
+            failure_ = std::current_exception();
+          }
+        }
       }
-      try {
-        DoClaim(claim, stage.claims, helper.lane);
-      } catch (...) {
-        // the caller throws it, when nobody is at work any more
-        if (!failed_.exchange(true, std::memory_order_relaxed)) failure_ = std::current_exception();
-      }
-      done_.fetch_add(1, std::memory_order_release);
+      // once a share: all who are here write to this counter
+      if (done > 0) done_.fetch_add(done, std::memory_order_release);
     }
   }
 
@@ -232,7 +271,7 @@ class Board : public detail::Placed {
   }
 
   Memory* const memory_ = detail::MemoryOfThread();  ///< of the crew, and what it takes
-  std::atomic<int> owners_{1}, helpers_{0}, most_helpers_{0}, homes_{0};
+  std::atomic<int> owners_{1}, helpers_{0}, most_helpers_{0};
   std::atomic<int> tasks_{0};  ///< submitted, and not run yet
   std::atomic<std::thread::id> caller_{};
   std::uint64_t number_ = 0;
@@ -240,7 +279,7 @@ class Board : public detail::Placed {
   std::atomic<SpanRecorder*> recorder_{nullptr};
   std::atomic<std::uint64_t> lanes_{1};  ///< that are taken, a bit each
   std::atomic<int> stage_{0}, units_{0};
-  std::array<std::atomic<std::uint64_t>, kClaims> claimed_{};
+  std::array<Share, kShares> shares_;
   std::atomic<bool> failed_{false};
   std::exception_ptr failure_;  ///< of the first claim of a stage that threw
   alignas(128) std::atomic<bool> open_{false};

@@ -29,10 +29,11 @@ class StagedWork {
 
 /// The threads that work on one Solve().
 ///
-/// One long task per helper, not one per stage: helpers stay awake between stages and claim units
-/// by an atomic each, from a home position of their own, so that a helper meets the same units in
-/// every sweep. Completion is counted in units. Hence nobody waits for a helper that was not given
-/// a core, unless it has claimed something.
+/// One long task per helper, not one per stage: helpers stay awake between stages. The units of a
+/// stage are cut into shares, one for each thread, so that a helper meets the same units in every
+/// sweep. It claims them by an atomic of the share, then takes from other shares. Completion is
+/// counted in units. Hence nobody waits for a helper that was not given a core, unless it has
+/// claimed something.
 class Crew : public detail::Placed {
  public:
   /// @p threads: the caller included, in [1, 1024]; one starts no others. Without an executor
