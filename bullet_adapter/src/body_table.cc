@@ -204,10 +204,9 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
 }
 
 void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
+  if (stiffness->empty()) return;  // nothing is strained, and ToBody() says so
   jointed_.clear();
-  if (!stiffness->empty()) {
-    for (btRigidBody* const rigid : rigids_) jointed_.push_back(IsJointed(rigid) ? 1 : 0);
-  }
+  for (btRigidBody* const rigid : rigids_) jointed_.push_back(IsJointed(rigid) ? 1 : 0);
   for (const GeometricStiffness::Raised& raised :
        stiffness->RaiseInertia(part, bodies_, jointed_)) {
     Motion& motion = motions_[raised.body];

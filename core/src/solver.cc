@@ -295,7 +295,7 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   const auto means = in_parts ? substeps.means() : std::span<const Velocity>();
   quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, &threads, report);
   const bool moves_on = !means.empty() && problem.motions.empty();
-  TellCorrections(problem, moves_on ? means : velocities, report);
+  TellCorrections(problem, moves_on ? means : velocities, &threads, report);
 }
 
 void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& impulses,

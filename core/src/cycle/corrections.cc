@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cairn/detail/eigen.h"
@@ -52,20 +53,43 @@ Correction CorrectionOf(double target, double moves) {
   return {.asked = asked, .done = std::clamp(target < 0 ? -moves : moves, 0.0, asked)};
 }
 
-Correction OfContacts(const ContactProblem& problem, const Motion& motion) {
-  const Manifold* worst = nullptr;
-  const ContactPoint* deepest = nullptr;
-  float most = 0;
-  for (const Manifold& manifold : problem.manifolds) {
+/// A point that is asked for more than others.
+struct Deepest {
+  float bias = 0;
+  const Manifold* manifold = nullptr;
+  const ContactPoint* point = nullptr;
+
+  /// Of equals the first stays.
+  void See(const Deepest& other) {
+    if (other.bias > bias) *this = other;
+  }
+};
+
+Deepest DeepestOf(const ContactProblem& problem, int first, int count) {
+  Deepest deepest;
+  for (const Manifold& manifold : problem.manifolds.subspan(first, count)) {
     for (int i = 0; i < manifold.points; ++i) {
       const ContactPoint& point = problem.points[manifold.first_point + i];
-      if (!(point.bias > most) || (manifold.speeds >> i & 1) != 0) continue;
-      most = point.bias;
-      worst = &manifold;
-      deepest = &point;
+      if ((manifold.speeds >> i & 1) == 0) deepest.See({point.bias, &manifold, &point});
     }
   }
-  return worst == nullptr ? Correction() : CorrectionOf(most, motion.Along(*worst, *deepest));
+  return deepest;
+}
+
+Correction OfContacts(const ContactProblem& problem, const Motion& motion,
+                      detail::Threads* threads) {
+  constexpr int kManifoldsOfPart = 512, kMostParts = 64;
+  const int manifolds = static_cast<int>(problem.manifolds.size());
+  const int of_part = std::max(kManifoldsOfPart, (manifolds + kMostParts - 1) / kMostParts);
+  std::array<Deepest, kMostParts> parts;
+  threads->For(
+      manifolds, of_part,
+      [&](int first, int count) { parts[first / of_part] = DeepestOf(problem, first, count); },
+      {SpanKind::kResults});
+  Deepest deepest;
+  for (const Deepest& part : parts) deepest.See(part);
+  if (deepest.point == nullptr) return {};
+  return CorrectionOf(deepest.bias, motion.Along(*deepest.manifold, *deepest.point));
 }
 
 /// Of rows that only turn, or of the others.
@@ -90,9 +114,9 @@ Correction OfJoints(const ContactProblem& problem, const Motion& motion, bool tu
 }  // namespace
 
 void TellCorrections(const ContactProblem& problem, std::span<const Velocity> velocities,
-                     Report* report) {
+                     detail::Threads* threads, Report* report) {
   const Motion motion(problem, velocities);
-  report->depth = OfContacts(problem, motion);
+  report->depth = OfContacts(problem, motion, threads);
   report->gap = OfJoints(problem, motion, false);
   report->angle = OfJoints(problem, motion, true);
 }

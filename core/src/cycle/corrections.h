@@ -4,6 +4,7 @@
 #include <span>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/threads.h"
 #include "cairn/report.h"
 
 namespace cairn {
@@ -12,6 +13,6 @@ namespace cairn {
 /// @param velocities  that bodies move by over the step
 /// @pre the problem was solved
 void TellCorrections(const ContactProblem& problem, std::span<const Velocity> velocities,
-                     Report* report);
+                     detail::Threads* threads, Report* report);
 
 }  // namespace cairn

@@ -10,7 +10,7 @@ namespace cairn {
 namespace {
 
 /// As many one thread looks at at a time.
-constexpr int kPairsOfPart = 2048;
+constexpr int kPairsOfPart = 512;
 /// Names of bodies without an id begin here.
 constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
 

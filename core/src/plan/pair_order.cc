@@ -13,7 +13,7 @@ namespace {
 /// Moving single pairs pays while fewer than one in so many has moved.
 constexpr size_t kShareOfMoved = 8;
 /// As many one thread looks at at a time.
-constexpr int kPairsOfPart = 4096;
+constexpr int kPairsOfPart = 512;
 
 }  // namespace
 

@@ -190,7 +190,7 @@ bool PairFinder::AddRows(std::span<const RowKind> kinds) {
 namespace {
 
 /// Joints and manifolds of which one thread makes pairs at a time.
-constexpr int kSourcesOfPart = 1024;
+constexpr int kSourcesOfPart = 512;
 
 constexpr int kMostRowsOfPair =
     std::max<int>(Joint::kMostRows, Manifold::kMostPoints*(1 + 2 + Manifold::kTwistRows));

@@ -19,7 +19,7 @@ constexpr int kOpenRuns = 8;
 bool IsLarge(const PlannedIsland& island) { return island.rows > Group::kSharedRows; }
 
 /// As many one thread has at a time while a plan is made.
-constexpr int kPairsOfPart = 2048, kRunsOfPart = 128;
+constexpr int kPairsOfPart = 512, kRunsOfPart = 64;
 
 constexpr int kForms = 3;
 
