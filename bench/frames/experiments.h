@@ -51,6 +51,12 @@ enum class Steps { kWherePredicted, kNone };
 /// on in the caches, and with caches emptied before.
 void PrintParts(const WindowOptions& options, Steps steps, const std::string& command);
 
+/// How much code a substep runs through, with Bullet's stock solver and with Cairn: what caches
+/// have to fetch where a game has done other things since the last one.
+/// @param functions  also so many functions of each, those of the most lines
+/// @throws std::runtime_error where processes cannot be stepped
+void PrintFootprints(const WindowOptions& options, int functions, const std::string& command);
+
 /// What budgets are measured with.
 enum class BudgetClock {
   kWall,

@@ -142,6 +142,20 @@ int Main(int count, char** arguments) {
   CLI::App* const parts_app = app.add_subcommand("parts", "Where a substep goes");
   AddParts(parts_app, &parts);
 
+  WindowOptions footprint;
+  int functions = 0;
+  std::vector<std::string> footprint_scenes = {"incline", "door", "tower", "slab"};
+  CLI::App* const footprint_app =
+      app.add_subcommand("footprint", "How much code a substep runs through");
+  AddScenes(footprint_app, &footprint_scenes);
+  footprint_app->add_option("--frame", footprint.frame, "The frame looked at")
+      ->check(CLI::Range(0, 10000))
+      ->capture_default_str();
+  footprint_app
+      ->add_option("--functions", functions,
+                   "Also list so many functions, those of the most lines first")
+      ->check(CLI::Range(0, 10000));
+
   DeadlineOptions deadlines;
   std::vector<std::string> deadline_scenes = {"castle", "islands", "rubble"};
   CLI::App* const deadlines_app =
@@ -159,6 +173,9 @@ int Main(int count, char** arguments) {
   } else if (parts_app->parsed()) {
     parts.options.scenes = ParseScenes(parts.scenes, parts.size);
     PrintParts(parts.options, parts.no_steps ? Steps::kNone : Steps::kWherePredicted, command);
+  } else if (footprint_app->parsed()) {
+    footprint.scenes = ParseScenes(footprint_scenes);
+    PrintFootprints(footprint, functions, command);
   } else if (deadlines_app->parsed()) {
     deadlines.scenes = ParseScenes(deadline_scenes);
     PrintDeadlines(deadlines, command);

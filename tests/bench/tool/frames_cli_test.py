@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""cairn_frames parts as its users meet it: python3 frames_cli_test.py PATH_OF_CAIRN_FRAMES"""
+"""cairn_frames as its users meet it: python3 frames_cli_test.py PATH_OF_CAIRN_FRAMES"""
 import os
 import subprocess
 import sys
@@ -79,6 +79,37 @@ class PartsTest(unittest.TestCase):
             result = frames("parts", *words)
             self.assertNotEqual(result.returncode, 0, words)
             self.assertNotEqual(result.stderr, "", words)
+
+
+class FootprintTest(unittest.TestCase):
+    def table(self, *arguments):
+        """Rows by solver, and all lines of the output."""
+        result = frames("footprint", "--frame", "3", "--scene", "incline", *arguments)
+        if "does not let a process step another" in result.stderr or "only on Linux" in result.stderr:
+            self.skipTest(result.stderr.strip())
+        self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+        lines = result.stdout.splitlines()
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+        self.assertEqual(rows[0], ["world", "solver", "instructions", "distinct", "lines", "KiB", "pages"])
+        self.assertEqual([row[0] for row in rows[2:]], ["incline"] * 3)
+        return {row[1]: [int(cell) for cell in row[2:]] for row in rows[2:]}, lines
+
+    def test_counts_what_each_solver_runs_through(self):
+        rows, _ = self.table()
+        self.assertEqual(list(rows), ["bullet", "cairn-pgs", "cairn"])
+        for solver, (ran, distinct, lines, kib, pages) in rows.items():
+            self.assertGreater(ran, distinct, solver)
+            self.assertTrue(lines < distinct < lines * 64, solver)
+            self.assertAlmostEqual(kib, lines / 16, delta=.5, msg=solver)
+            self.assertTrue(lines / 64 <= pages < lines, solver)
+            self.assertGreater(distinct, 1000, solver)
+
+    def test_the_functions_of_all_are_the_whole(self):
+        rows, lines = self.table("--functions", "10000")
+        begin = next(i for i, line in enumerate(lines) if line.startswith("incline, bullet: ")) + 3
+        functions = [line.split(None, 2) for line in lines[begin:lines.index("", begin)]]
+        self.assertEqual(sum(int(ran) for _, ran, _ in functions), rows["bullet"][0])
+        self.assertIn("btSequentialImpulseConstraintSolver::convertContact", [name for _, _, name in functions])
 
 
 class DeadlinesTest(unittest.TestCase):
