@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "joint_memory.h"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,11 @@ namespace {
 /// a step keeps its start.
 constexpr float kAlike = 0.9f;
 
+/// What rows have in common: the products of two of them with each other and with themselves.
+struct Products {
+  float ab = 0, aa = 0, bb = 0;
+};
+
 template <class Vector>
 float Dot(const Vector& a, const Vector& b) {
   return static_cast<float>(a[0]) * static_cast<float>(b[0]) +
@@ -22,27 +28,47 @@ float Dot(const Vector& a, const Vector& b) {
 }
 
 /// Without the half of a body that does not move: its lever reaches to the origin of the world.
-template <class AnyRow>
-bool Alike(const AnyRow& a, const AnyRow& b, const JointRows& joint) {
-  float ab = 0, aa = 0, bb = 0;
+Products ProductsOf(const Row& a, const Row& b, const JointRows& joint) {
+  Products products;
   if (joint.a_moves) {
-    ab += Dot(a.linear_a, b.linear_a) + Dot(a.angular_a, b.angular_a);
-    aa += Dot(a.linear_a, a.linear_a) + Dot(a.angular_a, a.angular_a);
-    bb += Dot(b.linear_a, b.linear_a) + Dot(b.angular_a, b.angular_a);
+    products.ab += Dot(a.linear_a, b.linear_a) + Dot(a.angular_a, b.angular_a);
+    products.aa += Dot(a.linear_a, a.linear_a) + Dot(a.angular_a, a.angular_a);
+    products.bb += Dot(b.linear_a, b.linear_a) + Dot(b.angular_a, b.angular_a);
   }
   if (joint.b_moves) {
-    ab += Dot(a.linear_b, b.linear_b) + Dot(a.angular_b, b.angular_b);
-    aa += Dot(a.linear_b, a.linear_b) + Dot(a.angular_b, a.angular_b);
-    bb += Dot(b.linear_b, b.linear_b) + Dot(b.angular_b, b.angular_b);
+    products.ab += Dot(a.linear_b, b.linear_b) + Dot(a.angular_b, b.angular_b);
+    products.aa += Dot(a.linear_b, a.linear_b) + Dot(a.angular_b, a.angular_b);
+    products.bb += Dot(b.linear_b, b.linear_b) + Dot(b.angular_b, b.angular_b);
   }
-  // rows that ask for nothing are alike
-  return (aa == 0 && bb == 0) || (ab > 0 && ab * ab >= kAlike * kAlike * aa * bb);
+  return products;
+}
+
+/// Likewise, with the three numbers of a vector side by side.
+Products ProductsOf(const JointRow& a, const JointRow& b, const JointRows& joint) {
+  // a row is four vectors, each with a number behind it that does not count
+  using Four = Eigen::Array4f;
+  static_assert(sizeof(JointRow) == 16 * sizeof(float));
+  const auto vector = [](const JointRow& row, int k) -> Four {
+    return Eigen::Map<const Four>(reinterpret_cast<const float*>(&row) + 4 * k);
+  };
+  Four ab = Four::Zero(), aa = Four::Zero(), bb = Four::Zero();
+  for (int k = joint.a_moves ? 0 : 2; k < (joint.b_moves ? 4 : 2); ++k) {
+    const Four of_a = vector(a, k), of_b = vector(b, k);
+    ab += of_a * of_b;
+    aa += of_a * of_a;
+    bb += of_b * of_b;
+  }
+  const auto sum = [](const Four& four) { return four[0] + four[1] + four[2]; };
+  return {sum(ab), sum(aa), sum(bb)};
 }
 
 template <class AnyRow>
 bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint) {
   for (int i = 0; i < joint.rows; ++i) {
-    if (!Alike(a[i], b[i], joint)) return false;
+    const auto [ab, aa, bb] = ProductsOf(a[i], b[i], joint);
+    // rows that ask for nothing are alike
+    const bool alike = (aa == 0 && bb == 0) || (ab > 0 && ab * ab >= kAlike * kAlike * aa * bb);
+    if (!alike) return false;
   }
   return true;
 }
