@@ -225,13 +225,21 @@ HWY_INLINE hn::Vec<DQ> LoadQuarter(DQ d, const BodyLane* bodies, std::int32_t sl
 }
 
 /// Whole-body loads and a transpose: element gathers are slower than scalar code on many CPUs.
-/// Beyond the first @p lanes lanes, and those that are read with them, numbers are 0 or those of
-/// the body of their slot. Few lanes, as blocks of small worlds have, take a third of the time.
+/// Beyond the first @p lanes lanes, and those that are read with them, numbers are any of bodies,
+/// or 0. Few lanes, as blocks of small worlds have, take a third of the time.
 template <class D>
 HWY_INLINE void GatherTo(const BodyLane* bodies, const std::int32_t* slot, int part, int lanes,
                          Registers<D, 1>* x, Registers<D, 1>* y, Registers<D, 1>* z) {
   const D d;
   hn::Vec<D> r0, r1, r2, r3;
+  if constexpr (kWidth<D> == 4) {
+    if (lanes == 1) {  // a body with many neighbours has one pair a run
+      x->v = LoadQuarter(d, bodies, slot[0], part);
+      y->v = hn::Shuffle2301(x->v);
+      z->v = hn::Shuffle1032(x->v);
+      return;
+    }
+  }
   if (lanes <= 4) {
     r0 = LoadQuarter(d, bodies, slot[0], part);
     r1 = LoadQuarter(d, bodies, slot[1], part);

@@ -8,6 +8,10 @@
 #define CAIRN_SIMD_PAIR_SWEEP_INL_H_
 #endif
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "simd/flush_denormals.h"
 #include "simd/pairs/pair_sweep.h"
 #include "simd/wide-inl.h"
@@ -159,9 +163,16 @@ struct PairState<PairForm::kContact, W> {
   }
 };
 
+/// Floats of the bounds of a row, by RowBound: a load instead of branches.
+constexpr std::ptrdiff_t kBoundFloats[] = {
+    kLanes * BoundLines(RowBound::kFree), kLanes * BoundLines(RowBound::kPush),
+    kLanes * BoundLines(RowBound::kOwn), kLanes * BoundLines(RowBound::kFriction),
+    kLanes * BoundLines(RowBound::kCutFriction)};
+
 template <class W>
 HWY_INLINE W Clamp(const RowShape& row, ConstFromLane bounds, FromLane x, const W& moved) {
-  switch (row.bound) {
+  const RowBound bound = row.bound;
+  switch (bound) {
     case RowBound::kFree:
       return moved;
     case RowBound::kPush:
@@ -175,7 +186,7 @@ HWY_INLINE W Clamp(const RowShape& row, ConstFromLane bounds, FromLane x, const 
   // 0 - 0 is +0 on every target, -(0) is not
   const W most = Mul(LoadLanes<W>(bounds[0]), Max(LoadLanes<W>(x[row.parent]), Zeros<W>()));
   const W least = Sub(Zeros<W>(), most);
-  if (row.bound == RowBound::kFriction) return Min(Max(moved, least), most);
+  if (bound == RowBound::kFriction) return Min(Max(moved, least), most);
   return Min(Max(moved, Max(least, LoadLanes<W>(bounds[1]))), Min(most, LoadLanes<W>(bounds[2])));
 }
 
@@ -211,8 +222,8 @@ struct RunState {
   using Own = typename FirstLanesFor<W>::Type;
 
   RunPlace place;
-  ConstFromLane line;
-  FromLane x;
+  ConstFromLane line;  ///< of the next row
+  FromLane x;          ///< of the first row
   Own own;
   PairState<form, W> pair;
   ErrorSums<W> errors;
@@ -228,11 +239,11 @@ struct RunState {
     line += PairLines(form);
     if (Measures(pass)) errors.Reset();
   }
-  HWY_INLINE void DoRow(const PairWork& work, const RowShape& row, int i) {
+  /// @p x_row: its impulses
+  HWY_INLINE void DoRow(const PairWork& work, const RowShape& row, float* x_row) {
+    if (pass != Pass::kStart && TakesPart(work, row)) return Relax(work, row, x_row);
     if constexpr (pass == Pass::kStart) {
-      pair.Push(line, LoadLanes<W>(x[i]));
-    } else if (TakesPart(work, row)) {
-      Relax(work, row, x[i]);
+      pair.Push(line, LoadLanes<W>(x_row));
     } else {
       PushChange();
     }
@@ -267,24 +278,26 @@ struct RunState {
     const W factor = pass == Pass::kMeasure ? inv_d : step;
     const W error = Sub(target, Add(pair.Head(line), pair.Tail(line)));
     W moved = Add(old, Mul(factor, error));
+    const ConstFromLane end = {bounds.lane + kBoundFloats[static_cast<int>(row.bound)]};
     if (pass != Pass::kMeasure && changed.lane != nullptr) {
-      const W coupling = LoadLanes<W>(line[CouplingLine(form, row)]);
-      moved = Sub(moved, Mul(Mul(factor, coupling), change_before));
+      // the coupling comes after the bounds
+      moved = Sub(moved, Mul(Mul(factor, LoadLanes<W>(end[0])), change_before));
       pair.Push(changed, change_before);
     }
     W now = Clamp(row, bounds, x, moved);
     // what the bodies see is what becomes of the impulse, as a float has it
     W change = Sub(now, old);
-    if (pass == Pass::kMeasure) return errors.Add(row, change, inv_d);
-
-    if (work.hold_lifted && row.parent >= 0) {
+    if (pass != Pass::kMeasure && work.hold_lifted && row.parent >= 0) {
       change = WherePositive(change, LoadLanes<W>(x[row.parent]));
       now = Add(old, change);
     }
-    if (pass == Pass::kMeasuredSweep) errors.Add(row, change, inv_d);
-    StoreLanes(kShared ? own.Choose(now, old) : now, x_row);
-    changed = line;
-    change_before = change;
+    if (Measures(pass)) errors.Add(row, change, inv_d);
+    if (pass != Pass::kMeasure) {
+      StoreLanes(kShared ? own.Choose(now, old) : now, x_row);
+      changed = line;
+      change_before = change;
+    }
+    line = end + 1;
   }
   HWY_INLINE void End(const PairWork& work, const LaneRun& run) {
     PushChange();
@@ -293,23 +306,32 @@ struct RunState {
   }
 };
 
+HWY_INLINE std::span<const RowShape> RowsOf(const PairBlock& block) {
+  return {block.rows, static_cast<std::size_t>(block.row_count)};
+}
+
 /// @p width: WidthOf() its lanes at least.
 template <PairForm form, Pass pass, int width>
 HWY_NOINLINE void DoRun(const PairWork& work, const LaneRun& run) {
-  const PairBlock& block = work.blocks[run.block];
   RunState<form, pass, Wide<width>> state(work, run);
-  for (int i = 0; i < block.row_count; ++i) state.DoRow(work, block.rows[i], i);
+  float* x = state.x[0];
+  for (const RowShape& row : RowsOf(work.blocks[run.block])) {
+    state.DoRow(work, row, x);
+    x += kLanes;
+  }
   state.End(work, run);
 }
 
 /// Two runs, row by row: while a row waits for the one before it, the other run has work.
 template <PairForm form, Pass pass>
 HWY_NOINLINE void DoTwoRuns(const PairWork& work, const LaneRun& run, const LaneRun& next) {
-  const PairBlock& block = work.blocks[run.block];
   RunState<form, pass, Wide<kLanes>> first(work, run), second(work, next);
-  for (int i = 0; i < block.row_count; ++i) {
-    first.DoRow(work, block.rows[i], i);
-    second.DoRow(work, block.rows[i], i);
+  float *x_first = first.x[0], *x_second = second.x[0];
+  for (const RowShape& row : RowsOf(work.blocks[run.block])) {
+    first.DoRow(work, row, x_first);
+    second.DoRow(work, row, x_second);
+    x_first += kLanes;
+    x_second += kLanes;
   }
   first.End(work, run);
   second.End(work, next);
