@@ -28,13 +28,15 @@ HWY_INLINE V Set(float value) { return hn::Set(D(), value); }
 HWY_INLINE V Load(const Line& line, int l) { return hn::Load(D(), line.lane + l); }
 HWY_INLINE void Store(V v, Line* line, int l) { hn::Store(v, D(), line->lane + l); }
 
-/// Four numbers of the first lanes, a multiple of four, from @p number on. The other lanes get
-/// those of the first four: kernels compute all lanes, and have nothing else to compute there.
-/// Registers are stored whole, as they are read.
+/// Lanes of the registers that hold the first @p lanes lanes.
+HWY_INLINE int InRegisters(int lanes) { return (lanes + kWidth - 1) / kWidth * kWidth; }
+
+/// Four numbers of the first lanes, a multiple of four, from @p number on. Registers are stored
+/// whole, as they are read; what is left of the last one gets numbers of the first four lanes.
 #if HWY_TARGET == HWY_SCALAR
 HWY_INLINE void TransposeFour(const float* const* from, int lanes, int number, Line* to) {
-  for (int l = 0; l < kLanes; ++l) {
-    for (int k = 0; k < 4; ++k) to[k].lane[l] = from[l < lanes ? l : l % 4][number + k];
+  for (int l = 0; l < lanes; ++l) {
+    for (int k = 0; k < 4; ++k) to[k].lane[l] = from[l][number + k];
   }
 }
 #else
@@ -68,7 +70,7 @@ HWY_INLINE hn::Vec<Lanes> Join(Lanes d, const Quad* quads, int number) {
 HWY_INLINE void TransposeFour(const float* const* from, int lanes, int number, Line* to) {
   constexpr int kQuads = kWidth / 4;
   const Quad first = ReadQuad(from, number);
-  for (int l = 0; l < kLanes; l += kWidth) {
+  for (int l = 0; l < lanes; l += kWidth) {
     Quad quads[kQuads];
     for (int q = 0; q < kQuads; ++q) {
       const int lane = l + 4 * q;

@@ -165,9 +165,9 @@ struct PairState<PairForm::kContact, W> {
 
 /// Floats of the bounds of a row, by RowBound: a load instead of branches.
 constexpr std::ptrdiff_t kBoundFloats[] = {
-    kLanes * BoundLines(RowBound::kFree), kLanes * BoundLines(RowBound::kPush),
-    kLanes * BoundLines(RowBound::kOwn), kLanes * BoundLines(RowBound::kFriction),
-    kLanes * BoundLines(RowBound::kCutFriction)};
+    kLanes * BoundLines(RowBound::kFree), kLanes* BoundLines(RowBound::kPush),
+    kLanes* BoundLines(RowBound::kOwn), kLanes* BoundLines(RowBound::kFriction),
+    kLanes* BoundLines(RowBound::kCutFriction)};
 
 template <class W>
 HWY_INLINE W Clamp(const RowShape& row, ConstFromLane bounds, FromLane x, const W& moved) {

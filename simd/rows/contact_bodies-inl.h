@@ -46,10 +46,11 @@ HWY_INLINE void Gather(const ContactBody* const* from, int lanes, Bodies* bodies
   }
 }
 
-/// Writes the lines of a pair of PairForm::kContact; @p scale: r, by which directions are scaled.
-HWY_INLINE void PutPair(const Bodies& a, const Bodies& b, Line* out, Line* scale) {
+/// Writes the lines of a pair of PairForm::kContact up to lane @p end; @p scale: r, by which
+/// directions are scaled.
+HWY_INLINE void PutPair(const Bodies& a, const Bodies& b, int end, Line* out, Line* scale) {
   const V zero = hn::Zero(D());
-  for (int l = 0; l < kLanes; l += kWidth) {
+  for (int l = 0; l < end; l += kWidth) {
     const V s_a = Load(a.number[0], l), s_b = Load(b.number[0], l);
     const V r = hn::Sqrt(s_a * s_a + s_b * s_b);
     const M moves = hn::Gt(r, zero);

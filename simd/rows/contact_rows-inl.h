@@ -49,7 +49,8 @@ enum class Acts { kPush, kTurn };
 template <PairForm form>
 class Packer {
  public:
-  Packer(const ContactLanes& lanes, Line* out, Line* x) : lanes_(lanes), out_(out), x_(x) {
+  Packer(const ContactLanes& lanes, Line* out, Line* x)
+      : lanes_(lanes), end_(InRegisters(lanes.lanes)), out_(out), x_(x) {
     Gather(lanes.a, lanes.lanes, &a_);
     Gather(lanes.b, lanes.lanes, &b_);
     if constexpr (form == PairForm::kSingle) {
@@ -64,13 +65,13 @@ class Packer {
 
   bool Pack(Line* directions) {
     if constexpr (form == PairForm::kContact) {
-      PutPair(a_, b_, out_, &scale_);
+      PutPair(a_, b_, end_, out_, &scale_);
       out_ += PairLines(form);
     }
     Point points[kMostPoints];
     for (int p = 0; p < lanes_.points; ++p) {
       Read(p, &points[p]);
-      for (int l = 0; l < kLanes; l += kWidth) {
+      for (int l = 0; l < end_; l += kWidth) {
         Aim(l, &points[p]);
         Start(l, &points[p]);
       }
@@ -175,7 +176,7 @@ class Packer {
       for (int k = 0; k < kTwistRows; ++k) twist->start[k].lane[l] = start[k];
     }
     TransposeFour(numbers, lanes_.lanes, 0, twist->number);
-    for (int l = 0; l < kLanes; l += kWidth) {
+    for (int l = 0; l < end_; l += kWidth) {
       const Vector n = At(point.number + kNormal, l), axis = At(point.axis, l);
       Put(n, twist->axis[0], l);
       Put(axis, twist->axis[1], l);
@@ -232,7 +233,7 @@ class Packer {
   HWY_INLINE void PutRow(const Point& point, const Line* direction, const Line* compliance,
                          const Wanted& wanted) {
     Line* const behind = out_ + JacobianLines(form);
-    for (int l = 0; l < kLanes; l += kWidth) {
+    for (int l = 0; l < end_; l += kWidth) {
       const Vector d = At(direction, l);
       V diagonal = acts == Acts::kPush ? PutPushing(point, d, l) : PutTurning(d, l);
       if (compliance != nullptr) diagonal = diagonal + Load(*compliance, l);
@@ -247,7 +248,7 @@ class Packer {
            [&](Vector, int l) HWY_ATTR { return Load(point.wanted, l); });
     *x = point.x[0];
     if (compliance != nullptr) {
-      for (int l = 0; l < kLanes; l += kWidth) {
+      for (int l = 0; l < end_; l += kWidth) {
         Demand(hn::Ge(Load(*compliance, l), hn::Zero(D())));
       }
       *out_++ = *compliance;
@@ -272,7 +273,7 @@ class Packer {
       return hn::Zero(D()) - Dot(d, spin_a - spin_b);
     });
     const int kind = k == 0 ? 0 : 1;
-    for (int l = 0; l < kLanes; l += kWidth) {
+    for (int l = 0; l < end_; l += kWidth) {
       const V zero = hn::Zero(D()), start = Load(twist.start[k], l);
       const V coefficient = Load(twist.number[kind], l);
       const V most = Load(twist.number[kMostSpinning + kind], l);
@@ -288,6 +289,7 @@ class Packer {
   }
 
   const ContactLanes& lanes_;
+  const int end_;  ///< Of the registers that hold them.
   Line* out_;
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle

@@ -28,7 +28,8 @@ struct JointSide {
 template <PairForm form>
 class JointPacker {
  public:
-  JointPacker(const JointLanes& lanes, Line* out, Line* x) : lanes_(lanes), out_(out), x_(x) {
+  JointPacker(const JointLanes& lanes, Line* out, Line* x)
+      : lanes_(lanes), end_(InRegisters(lanes.lanes)), out_(out), x_(x) {
     Gather(lanes.a, lanes.lanes, &a_);
     Gather(lanes.b, lanes.lanes, &b_);
     for (int l = 0; l < lanes.lanes; ++l) {
@@ -47,14 +48,14 @@ class JointPacker {
 
   bool Pack() {
     if constexpr (form == PairForm::kContact) {
-      PutPair(a_, b_, out_, &scale_);
+      PutPair(a_, b_, end_, out_, &scale_);
       out_ += PairLines(form);
     }
     for (int i = 0; i < lanes_.row_count; ++i) {
       Read(i);
       const RowShape& shape = lanes_.rows[i];
       Line* const behind = out_ + JacobianLines(form);
-      for (int l = 0; l < kLanes; l += kWidth) PutRow(shape.soft, l, behind);
+      for (int l = 0; l < end_; l += kWidth) PutRow(shape.soft, l, behind);
       out_ = behind + 2;
       if (shape.soft) *out_++ = number_[kRowCompliance];
       if (shape.bound == RowBound::kOwn) {
@@ -77,7 +78,7 @@ class JointPacker {
     for (int k = 0; k < kJointNumbers; k += 4) {
       TransposeFour(numbers, lanes_.lanes, k, number_ + k);
     }
-    for (int l = 0; l < kLanes; l += kWidth) {
+    for (int l = 0; l < end_; l += kWidth) {
       // one side says it for both
       const M opposite = hn::Gt(Load(opposite_, l), hn::Zero(D()));
       const Vector a = At(number_ + kLinearA, l), b = At(number_ + kLinearB, l);
@@ -132,7 +133,7 @@ class JointPacker {
   /// Bounds, and the start inside them.
   void PutBounds(Line* x) {
     constexpr float kEndless = std::numeric_limits<float>::infinity();
-    for (int l = 0; l < kLanes; l += kWidth) {
+    for (int l = 0; l < end_; l += kWidth) {
       const V lo = Load(number_[kLo], l), hi = Load(number_[kHi], l);
       // + 0: no bound may leave a -0
       Store(hn::Min(hn::Max(Load(start_, l), lo), hi) + hn::Zero(D()), x, l);
@@ -145,6 +146,7 @@ class JointPacker {
   }
 
   const JointLanes& lanes_;
+  const int end_;  ///< Of the registers that hold them.
   Line* out_;
   Line* x_;
   Bodies a_, b_, moving_;  ///< moving_: of PairForm::kSingle
