@@ -40,16 +40,27 @@ class Nncg::Pass final : public StagedWork {
     const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
     if (!groups_[group].active) return;
     if (unit < blocks) {
-      MoveImpulses(plan_.units()[unit]);
+      MoveImpulses(plan_.units()[unit].first_block, plan_.units()[unit].blocks);
     } else {
       MoveBodies(plan_.groups()[group]);
     }
   }
 
+  /// All of it at once, where nobody shares it.
+  void DoAll(SpanRecorder* recorder) {
+    const SpanClock clock(recorder, 0, recorder != nullptr ? label(0) : SpanLabel{});
+    for (size_t g = 0; g < groups_.size(); ++g) {
+      if (!groups_[g].active) continue;
+      const Group& group = plan_.groups()[g];
+      MoveImpulses(group.first_block, group.blocks);
+      MoveBodies(group);
+    }
+  }
+
  private:
-  void MoveImpulses(const Unit& unit) {
-    kernels_.move_blocks(&nncg_.MomentumOf(0), &plan_.blocks()[unit.first_block],
-                         plan_.islands_of(unit.first_block), unit.blocks,
+  void MoveImpulses(int first_block, int blocks) {
+    kernels_.move_blocks(&nncg_.MomentumOf(0), &plan_.blocks()[first_block],
+                         plan_.islands_of(first_block), blocks,
                          {now_.x.data(), nncg_.last_.x.data(), nncg_.direction_.x.data()});
   }
 
@@ -160,6 +171,7 @@ void Nncg::MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* f
     return;
   }
   Pass pass(groups, frame, this);
+  if (crew->alone()) return pass.DoAll(crew->recorder());
   crew->Run(&pass);
 }
 
