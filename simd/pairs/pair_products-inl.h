@@ -37,12 +37,13 @@ HWY_INLINE LaneVec<double> LoadAs(LaneTag<double> d, const float* from) {
 
 constexpr int BodyLines(PairForm form) { return form == PairForm::kSingle ? 6 : kPairLines; }
 
-/// G of one row: the numbers of some lanes, which begin at @p lane.
+/// G of rows in full, with the bodies of their pair: numbers of some lanes, which begin at @p lane.
 template <class T, PairForm form>
-struct RowOfLanes {
+struct RowsInFull {
   LaneVec<T> c_a, c_b;
+  int lane;
 
-  HWY_INLINE RowOfLanes(const Line* pair, int lane) {
+  HWY_INLINE RowsInFull(const Line* pair, int first) : lane(first) {
     if constexpr (form == PairForm::kContact) {
       c_a = LoadAs(LaneTag<T>(), pair[0].lane + lane);
       c_b = LoadAs(LaneTag<T>(), pair[1].lane + lane);
@@ -50,19 +51,29 @@ struct RowOfLanes {
       c_a = c_b = hn::Zero(LaneTag<T>());
     }
   }
-  /// g := all of them. See PairForm::kContact.
-  HWY_INLINE void Expand(const Line* row, int lane, LaneVec<T>* g) const {
+  /// Number @p k of a row. See PairForm::kContact.
+  template <int k>
+  HWY_INLINE LaneVec<T> At(const Line* row) const {
     const LaneTag<T> d;
-    if constexpr (form == PairForm::kContact) {
-      for (int k = 0; k < 3; ++k) {
-        const auto n = LoadAs(d, row[k].lane + lane);
-        g[k] = hn::Mul(c_a, n);
-        g[3 + k] = LoadAs(d, row[3 + k].lane + lane);
-        g[6 + k] = hn::Neg(hn::Mul(c_b, n));
-        g[9 + k] = LoadAs(d, row[6 + k].lane + lane);
-      }
+    if constexpr (form != PairForm::kContact) {
+      return LoadAs(d, row[k].lane + lane);
+    } else if constexpr (k < 3) {
+      return hn::Mul(c_a, LoadAs(d, row[k].lane + lane));
+    } else if constexpr (k < 6) {
+      return LoadAs(d, row[k].lane + lane);
+    } else if constexpr (k < 9) {
+      return hn::Neg(hn::Mul(c_b, LoadAs(d, row[k - 6].lane + lane)));
     } else {
-      for (int k = 0; k < JacobianLines(form); ++k) g[k] = LoadAs(d, row[k].lane + lane);
+      return LoadAs(d, row[k - 3].lane + lane);
+    }
+  }
+  /// function(number of a row, its place) for all of them, without an array: compilers would keep
+  /// one in memory.
+  template <int k = 0, class Function>
+  HWY_INLINE void ForNumbers(const Line* row, const Function& function) const {
+    if constexpr (k < BodyLines(form)) {
+      function(At<k>(row), k);
+      ForNumbers<k + 1>(row, function);
     }
   }
 };
@@ -73,6 +84,10 @@ struct Sums {
   LaneVec<T> first;
   Sums<T, count - 1> rest;
 
+  HWY_INLINE void Clear() {
+    first = hn::Zero(LaneTag<T>());
+    rest.Clear();
+  }
   HWY_INLINE void Load(const LineOf<T>* lines, int lane) {
     first = hn::Load(LaneTag<T>(), lines->lane + lane);
     rest.Load(lines + 1, lane);
@@ -81,6 +96,12 @@ struct Sums {
     first = hn::Add(first, hn::Mul(hn::Load(LaneTag<T>(), lines->lane + lane), number));
     rest.AddProducts(lines + 1, lane, number);
   }
+  /// Number by number those of a row.
+  template <PairForm form>
+  HWY_INLINE void AddProducts(const RowsInFull<T, form>& rows, const Line* row, LaneVec<T> number) {
+    first = hn::Add(first, hn::Mul(rows.template At<BodyLines(form) - count>(row), number));
+    rest.AddProducts(rows, row, number);
+  }
   HWY_INLINE void Store(LineOf<T>* lines, int lane) const {
     hn::Store(first, LaneTag<T>(), lines->lane + lane);
     rest.Store(lines + 1, lane);
@@ -88,8 +109,11 @@ struct Sums {
 };
 template <class T>
 struct Sums<T, 0> {
+  HWY_INLINE void Clear() {}
   HWY_INLINE void Load(const LineOf<T>*, int) {}
   HWY_INLINE void AddProducts(const LineOf<T>*, int, LaneVec<T>) {}
+  template <PairForm form>
+  HWY_INLINE void AddProducts(const RowsInFull<T, form>&, const Line*, LaneVec<T>) {}
   HWY_INLINE void Store(LineOf<T>*, int) const {}
 };
 
@@ -115,14 +139,13 @@ HWY_NOINLINE void MultiplyForm(const PairBlock& block, const Line* lines, const 
   const LaneTag<T> d;
   for (int i = 0; i < block.row_count; ++i) rows[i] = {};  // lanes that are not filled, too
   ForLanes<T>(block, [&](int lane) HWY_ATTR {
-    const RowOfLanes<T, form> of_lanes(lines, lane);
+    const RowsInFull<T, form> in_full(lines, lane);
     ForRows<form>(block, lines, [&](int i, const Line* row) HWY_ATTR {
-      LaneVec<T> g[BodyLines(form)];
-      of_lanes.Expand(row, lane, g);
-      auto sum = hn::Mul(g[0], hn::Load(d, v[0].lane + lane));
-      for (int k = 1; k < BodyLines(form); ++k) {
-        sum = hn::Add(sum, hn::Mul(g[k], hn::Load(d, v[k].lane + lane)));
-      }
+      LaneVec<T> sum = hn::Zero(d);
+      in_full.ForNumbers(row, [&](LaneVec<T> g, int k) HWY_ATTR {
+        const auto product = hn::Mul(g, hn::Load(d, v[k].lane + lane));
+        sum = k == 0 ? product : hn::Add(sum, product);
+      });
       hn::Store(sum, d, rows[i].lane + lane);
     });
   });
@@ -133,16 +156,11 @@ HWY_NOINLINE void MultiplyTransposedForm(const PairBlock& block, const Line* lin
                                          const LineOf<T>* rows, LineOf<T>* v) {
   const LaneTag<T> d;
   ForLanes<T>(block, [&](int lane) HWY_ATTR {
-    const RowOfLanes<T, form> of_lanes(lines, lane);
-    for (int k = 0; k < BodyLines(form); ++k) hn::Store(hn::Zero(d), d, v[k].lane + lane);
+    const RowsInFull<T, form> in_full(lines, lane);
     Sums<T, BodyLines(form)> sums;
-    sums.Load(v, lane);
+    sums.Clear();
     ForRows<form>(block, lines, [&](int i, const Line* row) HWY_ATTR {
-      LineOf<T> full[BodyLines(form)];
-      LaneVec<T> g[BodyLines(form)];
-      of_lanes.Expand(row, lane, g);
-      for (int k = 0; k < BodyLines(form); ++k) hn::Store(g[k], d, full[k].lane + lane);
-      sums.AddProducts(full, lane, hn::Load(d, rows[i].lane + lane));
+      sums.AddProducts(in_full, row, hn::Load(d, rows[i].lane + lane));
     });
     sums.Store(v, lane);
   });
@@ -205,13 +223,11 @@ HWY_NOINLINE void WeightedGramForm(const PairBlock& block, const Line* lines,
   SomeRows<T, form> some;
   ForRows<form>(block, lines, [&](int i, const Line* row) HWY_ATTR {
     ForLanes<T>(block, [&](int lane) HWY_ATTR {
-      LaneVec<T> g[BodyLines(form)];
-      RowOfLanes<T, form>(lines, lane).Expand(row, lane, g);
       const auto weight = hn::Load(d, weights[i].lane + lane);
-      for (int k = 0; k < BodyLines(form); ++k) {
-        hn::Store(g[k], d, some.g[some.count][k].lane + lane);
-        hn::Store(hn::Mul(weight, g[k]), d, some.weighted[some.count][k].lane + lane);
-      }
+      RowsInFull<T, form>(lines, lane).ForNumbers(row, [&](LaneVec<T> g, int k) HWY_ATTR {
+        hn::Store(g, d, some.g[some.count][k].lane + lane);
+        hn::Store(hn::Mul(weight, g), d, some.weighted[some.count][k].lane + lane);
+      });
     });
     if (++some.count < SomeRows<T, form>::kMost) return;
     AddRows(block, some, gram);
