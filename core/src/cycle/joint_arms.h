@@ -12,12 +12,12 @@ namespace cairn {
 template <class Vectors>
 bool AreAxes(const Vectors& vector) {
   constexpr double kFar = 1e-3;  // how far their products may be from 1 and 0
+  double axes[3][3];
   for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) axes[i][k] = static_cast<double>(vector(i)[k]);
     for (int j = 0; j <= i; ++j) {
       double product = i == j ? -1 : 0;
-      for (int k = 0; k < 3; ++k) {
-        product += static_cast<double>(vector(i)[k]) * static_cast<double>(vector(j)[k]);
-      }
+      for (int k = 0; k < 3; ++k) product += axes[i][k] * axes[j][k];
       if (!(std::abs(product) < kFar)) return false;
     }
   }

@@ -218,8 +218,16 @@ void GeometricStiffness::Add(int body, const Vector3& arm, const Vector3& impuls
     sums_.emplace_back();
   }
   const Eigen::Vector3d at = arm, force = View(impulse) / time_step;
-  View(sums_[place_[body]]) += force.dot(at) * Eigen::Matrix3d::Identity() -
-                               0.5 * (at * force.transpose() + force * at.transpose());
+  // (f . r) 1 - (r f' + f r') / 2, which is symmetric
+  auto sum = View(sums_[place_[body]]);
+  const double along = force.dot(at);
+  for (int column = 0; column < 3; ++column) {
+    for (int row = column; row < 3; ++row) {
+      const double across = 0.5 * (at[row] * force[column] + force[row] * at[column]);
+      sum(row, column) += (row == column ? along : 0) - across;
+      sum(column, row) = sum(row, column);
+    }
+  }
 }
 
 void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
