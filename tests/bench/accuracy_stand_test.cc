@@ -53,6 +53,28 @@ TEST(Stand, DoesNotDependOnTheNumberOfJobs) {
   EXPECT_NE(one[0].lost, one[1].lost) << "displaced by their seeds";
 }
 
+TEST(Stand, RestsAsDeepAsTheSlop) {
+  const TensionSolver solver = ParseTensionSolvers("cairn").front();
+  StandOptions options = Options("tower:5", 1);
+  const StandRun bullets = RunStand(options, solver).front();
+  options.slop = 0.002;
+  const StandRun deep = RunStand(options, solver).front();
+  EXPECT_NEAR(deep.lost - bullets.lost, 5 * 0.002, 0.002) << "one below each of the five boxes";
+  options.erp = 0;
+  const StandRun left = RunStand(options, solver).front();
+  EXPECT_NE(left.lost, deep.lost) << "nothing takes depth away";
+}
+
+TEST(Stand, TellsHowFarATowerLeans) {
+  const StandRun tower =
+      RunStand(Options("tower:5", 1), ParseTensionSolvers("cairn").front()).front();
+  const StandRun fallen =
+      RunStand(Options("heavy-top", 1), ParseTensionSolvers("bullet-10").front()).front();
+  EXPECT_GT(tower.sway, 0);
+  EXPECT_LT(tower.sway, 0.02);
+  EXPECT_GT(fallen.sway, 0.5) << "half a box, or it would stand";
+}
+
 TEST(Stand, WritesEveryRun) {
   const StandOptions options = Options("heavy-top", 2);
   const TensionSolver bullet = ParseTensionSolvers("bullet-10").front();
@@ -62,6 +84,14 @@ TEST(Stand, WritesEveryRun) {
   EXPECT_EQ(json["solvers"][0]["runs"].size(), 2u);
   EXPECT_EQ(json["solvers"][0]["runs"][1]["seed"], 4);
   EXPECT_TRUE(json["solvers"][0]["runs"][0].contains("fell_s"));
+  EXPECT_GT(json["solvers"][0]["runs"][0]["sway_m"], 0);
+  EXPECT_FALSE(json.contains("linear_slop_m")) << "Bullet's own";
+  StandOptions set = options;
+  set.slop = 0.001;
+  set.erp = 0.1;
+  const nlohmann::ordered_json other = ToJson({}, set);
+  EXPECT_EQ(other["linear_slop_m"], 0.001);
+  EXPECT_EQ(other["erp2"], 0.1);
 }
 
 }  // namespace

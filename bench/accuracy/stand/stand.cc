@@ -26,16 +26,39 @@ namespace {
 
 constexpr int kRate = 60;
 
+std::vector<btVector3> Places(const bench::World& world) {
+  std::vector<btVector3> places;
+  for (const btRigidBody* body : world.dynamic_bodies()) {
+    places.push_back(body->getCenterOfMassPosition());
+  }
+  return places;
+}
+
+/// How far the body that went furthest to the side is from where it began [m].
+double SideWay(const std::vector<btVector3>& began, const bench::World& world) {
+  const std::vector<btVector3> places = Places(world);
+  double most = 0;
+  for (size_t i = 0; i < std::min(began.size(), places.size()); ++i) {
+    const btVector3 way = places[i] - began[i];
+    most = std::max(most, std::hypot(static_cast<double>(way.x()), static_cast<double>(way.z())));
+  }
+  return most;
+}
+
 StandRun RunSeed(const StandOptions& options, const TensionSolver& solver, std::uint64_t seed) {
   const std::unique_ptr<btConstraintSolver> made = solver.make();
   cli::WatchedSolver watched(made.get());
   bench::World world(&watched);
   watched.Watch(world.bullet());
-  world.solver_info().m_numIterations = solver.iterations;
+  btContactSolverInfo& info = world.solver_info();
+  info.m_numIterations = solver.iterations;
+  if (options.slop) info.m_linearSlop = static_cast<btScalar>(*options.slop);
+  if (options.erp) info.m_erp2 = static_cast<btScalar>(*options.erp);
   const std::unique_ptr<bench::Scene> scene = options.scene.make();
   scene->Build(&world, {.size = options.scene.size, .seed = seed});
   StandRun run{.seed = seed};
   const double start = bench::TotalEnergy(world);
+  const std::vector<btVector3> began = Places(world);
   const int seconds = static_cast<int>(std::lround(options.seconds));
   for (int second = 0; second < seconds && !run.fell; ++second) {
     for (int k = 0; k < kRate; ++k) {
@@ -45,6 +68,7 @@ StandRun RunSeed(const StandOptions& options, const TensionSolver& solver, std::
     }
     const bench::SceneFacts facts = scene->Measure(world);
     run.lost = std::max(run.lost, facts.height_lost_m);
+    run.sway = std::max(run.sway, SideWay(began, world));
     run.gap =
         std::isnan(facts.joint_gap_m) ? facts.joint_gap_m : std::max(run.gap, facts.joint_gap_m);
     run.speed = bench::LargestSpeed(world);
@@ -56,7 +80,7 @@ StandRun RunSeed(const StandOptions& options, const TensionSolver& solver, std::
 
 struct Summary {
   int falls = 0;
-  std::vector<double> lost, speeds, gaps, gains;  ///< of those that stand
+  std::vector<double> lost, sways, speeds, gaps, gains;  ///< of those that stand
   const StandRun* first_fall = nullptr;
   const StandRun* worst = nullptr;  ///< of those that stand
 };
@@ -70,6 +94,7 @@ Summary SumUp(const std::vector<StandRun>& runs) {
       continue;
     }
     sum.lost.push_back(run.lost);
+    sum.sways.push_back(run.sway);
     sum.speeds.push_back(run.speed);
     sum.gaps.push_back(run.gap);
     sum.gains.push_back(100 * run.gain);
@@ -105,11 +130,13 @@ std::vector<StandRun> RunStand(const StandOptions& options, const TensionSolver&
 
 void PrintStand(const std::vector<StandResult>& results, const StandOptions& options) {
   fmt::print(
-      "{} seeds from {}, {} s each. Height lost and gaps are the largest at the ends of seconds "
-      "[mm], speeds those at the end [m/s], energy the most above the start [%].\n\n",
+      "{} seeds from {}, {} s each. Height lost, sway (the furthest that a body is to the side of "
+      "where it began) and gaps are the largest at the ends of seconds [mm], speeds those at the "
+      "end [m/s], energy the most above the start [%].\n\n",
       options.seeds, options.first, options.seconds);
-  cli::TextTable table = cli::TableOf({"solver", "fell", "first fall", "lost: median", "worst",
-                                       "worst gap", "worst speed", "most energy"});
+  cli::TextTable table =
+      cli::TableOf({"solver", "fell", "first fall", "lost: median", "worst", "sway: median",
+                    "worst", "worst gap", "worst speed", "most energy"});
   for (const StandResult& result : results) {
     const Summary sum = SumUp(result.runs);
     const auto of_seed = [](const StandRun* run, const auto& what) {
@@ -124,7 +151,9 @@ void PrintStand(const std::vector<StandResult>& results, const StandOptions& opt
                  [](const StandRun& run) { return fmt::format("{} s", *run.fell); }),
          sum.lost.empty() ? "-" : Millimetres(cli::Median(sum.lost)),
          of_seed(sum.worst, [](const StandRun& run) { return Millimetres(run.lost); }),
-         Millimetres(worst(sum.gaps)), Digits(worst(sum.speeds)), Digits(worst(sum.gains))});
+         sum.sways.empty() ? "-" : Millimetres(cli::Median(sum.sways)),
+         Millimetres(worst(sum.sways)), Millimetres(worst(sum.gaps)), Digits(worst(sum.speeds)),
+         Digits(worst(sum.gains))});
   }
   fmt::print("{}", table.ToText());
 }
@@ -134,11 +163,14 @@ nlohmann::ordered_json ToJson(const std::vector<StandResult>& results,
   nlohmann::ordered_json json = {{"scene", options.scene.info->name},
                                  {"seconds", options.seconds},
                                  {"solvers", nlohmann::ordered_json::array()}};
+  if (options.slop) json["linear_slop_m"] = *options.slop;
+  if (options.erp) json["erp2"] = *options.erp;
   for (const StandResult& result : results) {
     nlohmann::ordered_json runs = nlohmann::ordered_json::array();
     for (const StandRun& run : result.runs) {
       nlohmann::ordered_json one = {{"seed", run.seed},
                                     {"height_lost_m", cli::Number(run.lost)},
+                                    {"sway_m", cli::Number(run.sway)},
                                     {"joint_gap_m", cli::Number(run.gap)},
                                     {"speed_m_s", cli::Number(run.speed)},
                                     {"energy_gain", cli::Number(run.gain)}};

@@ -17,7 +17,8 @@ namespace cairn::accuracy {
 struct StandOptions {
   cli::SceneChoice scene;
   int first = 0, seeds = 20, jobs = 1;
-  double seconds = 10;  ///< At 60 Hz.
+  double seconds = 10;              ///< At 60 Hz.
+  std::optional<double> slop, erp;  ///< m_linearSlop [m] and m_erp2 [1], if not Bullet's own.
   /// Called with the number of runs that are done, by one thread at a time.
   std::function<void(int)> progress;
 };
@@ -30,6 +31,7 @@ struct StandRun {
   double lost = 0;   ///< Largest height lost at the end of a second, until it fell [m].
   double speed = 0;  ///< Largest at the end of the run, or when it fell [m/s].
   double gap = 0;    ///< Largest joint gap at the end of a second [m]; NaN without joints.
+  double sway = 0;   ///< Furthest a body is to the side of where it began, as lost [m].
   double gain = 0;   ///< Most energy above that at the start, over that [1], of all steps.
 };
 

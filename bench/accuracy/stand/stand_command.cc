@@ -62,6 +62,10 @@ cli::Command AddStandCommand(CLI::App* app) {
   stand->add_option("--seconds", choice->options.seconds, "Of each run, at 60 Hz")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
+  stand->add_option("--slop", choice->options.slop, "m_linearSlop [m]; Bullet has 0")
+      ->check(CLI::Range(0.0, 1.0));
+  stand->add_option("--erp", choice->options.erp, "m_erp2, of contacts; Bullet has 0.2")
+      ->check(CLI::Range(0.0, 1.0));
   cli::AddText(stand, "--json", &common->json, "Write all figures to this file", "FILE");
   cli::AddText(stand, "--progress", &common->words.progress,
                "Progress on stderr: auto (if a terminal), always, never", "WHEN");
