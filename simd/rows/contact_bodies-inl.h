@@ -46,6 +46,13 @@ HWY_INLINE void Gather(const ContactBody* const* from, int lanes, Bodies* bodies
   }
 }
 
+/// Fills a line up to the end of a register, as TransposeFour() does: what is beyond @p lanes, a
+/// multiple of four, must be as good as the first four lanes, or wide registers refuse what narrow
+/// ones take.
+HWY_INLINE void FillRegisters(int lanes, Line* line) {
+  for (int l = lanes; l < InRegisters(lanes); ++l) line->lane[l] = line->lane[l % 4];
+}
+
 /// Writes the lines of a pair of PairForm::kContact up to lane @p end; @p scale: r, by which
 /// directions are scaled.
 HWY_INLINE void PutPair(const Bodies& a, const Bodies& b, int end, Line* out, Line* scale) {

@@ -59,6 +59,7 @@ class Packer {
         moving[l] = lanes.second_moves[l] ? lanes.b[l] : lanes.a[l];
         sign_.lane[l] = lanes.second_moves[l] ? -1.0f : 1.0f;
       }
+      FillRegisters(lanes.lanes, &sign_);
       Gather(moving, lanes.lanes, &moving_);
     }
   }

@@ -37,6 +37,7 @@ class JointPacker {
       opposite_.lane[l] = lanes.opposite[l] ? 1 : 0;
       second_moves_.lane[l] = lanes.second_moves[l] ? 1 : 0;
     }
+    for (Line* line : {&damping_, &opposite_, &second_moves_}) FillRegisters(lanes.lanes, line);
     if constexpr (form == PairForm::kSingle) {
       const ContactBody* moving[kLanes];
       for (int l = 0; l < lanes.lanes; ++l) {

@@ -61,6 +61,22 @@ TEST(Joint, CarriesWhatHangsFromIt) {
   }
 }
 
+// A wide register has lanes beyond those of a block, which must not look there either.
+TEST(Joint, DoesNotLookAtWhatIsOppositeOnAnyTarget) {
+  for (const simd::Target target : simd::SupportedTargets()) {
+    const test::AskFor asked(target);
+    ManifoldScene scene = Hanging();
+    for (Joint& joint : scene.joints) joint.opposite = true;
+    for (JointRow& row : scene.joint_rows) {
+      for (float& number : row.linear_b) number = std::numeric_limits<float>::quiet_NaN();
+    }
+    std::vector<Velocity> velocities;
+    const Report report = Solve(Settings{}, &scene, &velocities);
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report.path, Path::kFast) << simd::TargetName(target);
+  }
+}
+
 TEST(Joint, GivesNoMoreThanItsBounds) {
   for (const Path path : {Path::kFast, Path::kReference}) {
     ManifoldScene scene = Hanging();

@@ -232,6 +232,31 @@ TEST(Manifold, HasTheSameBitsOnEveryTargetAndThread) {
   }
 }
 
+// A wide register has lanes beyond those of a block. What is there is refused nowhere, or
+// everywhere.
+TEST(Manifold, FitsFloatsOnEveryTargetOrOnNone) {
+  for (const bool second : {false, true}) {
+    // 3e4 m from its centre a body that turns by 3e11 rad/s: far, and easily moved
+    ManifoldScene scene = test::ManifoldTower(1);
+    scene.points.resize(1);
+    scene.point_impulses.resize(1);
+    scene.manifolds[0].points = 1;
+    scene.bodies[0].velocity.angular = {0, 0, 3e11};
+    ContactPoint& point = scene.points[0];
+    point.arm_a[0] = point.arm_b[0] = 3e4f;
+    if (second) std::swap(scene.manifolds[0].body_a, scene.manifolds[0].body_b);
+    const Solved expected = Solve(Settings{}, scene);
+    ASSERT_TRUE(expected.report.ok());
+    EXPECT_EQ(expected.report.path, Path::kFast);
+    for (const simd::Target target : simd::SupportedTargets()) {
+      const test::AskFor asked(target);
+      const Solved other = Solve(Settings{}, scene);
+      EXPECT_EQ(other.report.path, Path::kFast) << simd::TargetName(target);
+      EXPECT_TRUE(test::SameBits(other.points, expected.points)) << simd::TargetName(target);
+    }
+  }
+}
+
 TEST(Manifold, StandsBesideRows) {
   // a tower of manifolds, and the same tower of rows
   ManifoldScene scene = test::ManifoldTower(5);
