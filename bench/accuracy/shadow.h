@@ -36,10 +36,11 @@ struct ShadowFrame {
 
 /// cairn::bullet::ConstraintSolver beside another solver: it is given each substep of a world that
 /// the other one drives, and learns from frame to frame what it would learn in its place. Contacts
-/// start from the impulses of the world, joints from those of its own last substep.
+/// start from the impulses of the world, joints from those of its own last substep. They stay as
+/// hard as the world says, whatever their age: both solve the same.
 class Shadow {
  public:
-  explicit Shadow(const Settings& settings) : solver_(settings) {}
+  explicit Shadow(const Settings& settings) : solver_(settings, {.resting_slop = false}) {}
 
   /// Solves the substep from its captured state; the bodies keep what comes out.
   /// @param budget  [ms]

@@ -61,6 +61,13 @@ struct SolverChoice {
     contestant->AllowThreads(threads);
     return contestant;
   }
+  /// One that is compared with others on the same states: contacts of any age are what the settings
+  /// of the world say, so that all are asked the same (Options::resting_slop is off).
+  std::unique_ptr<Contestant> MakeForSameStates() const {
+    std::unique_ptr<Contestant> contestant = Make();
+    if (contestant->cairn() != nullptr) contestant->cairn()->options().resting_slop = false;
+    return contestant;
+  }
 };
 
 /// Solvers of a list of names with commas. @throws Failure (kUsage)

@@ -49,7 +49,7 @@ double EffortLadder::Solve(const Rung& rung, bench::Substep* substep) const {
 void EffortLadder::Build(bench::Substep* substep) {
   for (const Effort& effort : Efforts(*choice_.entry)) {
     if (effort.budget && Milliseconds(*effort.budget) > most_) return;
-    const Rung& rung = rungs_.emplace_back(Rung{effort, choice_.Make()});
+    const Rung& rung = rungs_.emplace_back(Rung{effort, choice_.MakeForSameStates()});
     // the first time is that of a cold start
     const double cold = Solve(rung, substep), warm = Solve(rung, substep);
     if (!effort.budget && std::min(cold, warm) > most_) return;

@@ -11,10 +11,11 @@ namespace cairn::cli {
 
 ErrorSampler::ErrorSampler(std::span<const SolverChoice> solvers,
                            const btContactSolverInfo& defaults)
-    : reference_(std::make_unique<bullet::ConstraintSolver>(bench::ReferenceSettings())),
+    : reference_(std::make_unique<bullet::ConstraintSolver>(
+          bench::ReferenceSettings(), bullet::Options{.resting_slop = false})),
       defaults_(defaults) {
   for (const SolverChoice& choice : solvers) {
-    contestants_.push_back(choice.Make());
+    contestants_.push_back(choice.MakeForSameStates());
     in_parts_.push_back(choice.entry->parts > 1);
   }
 }

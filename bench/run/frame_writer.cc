@@ -6,10 +6,11 @@
 namespace cairn::cli {
 namespace {
 
-/// Bullet's solvers start friction and joints from nothing.
-bullet::Options StartLikeBullet() {
+/// Bullet's solvers start friction and joints from nothing, and have no gentle contacts.
+bullet::Options LikeBullet() {
   bullet::Options options;
   options.warm_start_friction = options.warm_start_joints = false;
+  options.resting_slop = false;
   return options;
 }
 
@@ -20,7 +21,7 @@ void FrameWriter::Ask(const std::string& path, int frame, bullet::ConstraintSolv
   path_ = path;
   writer_ = cairn;
   if (cairn == nullptr) {
-    beside_ = std::make_unique<bullet::ConstraintSolver>(Settings{}, StartLikeBullet());
+    beside_ = std::make_unique<bullet::ConstraintSolver>(Settings{}, LikeBullet());
     writer_ = beside_.get();
     watched->ProbeNext([this](bench::Substep* substep, const btContactSolverInfo& info) {
       substep->Restore();

@@ -13,11 +13,12 @@ constexpr int kIterationsOfStates = 200;
 
 SameStates::SameStates(const SceneChoice& scene, const Setup& setup)
     : run_(scene, kIterationsOfStates),
-      reference_(bench::ReferenceSettings(), {.geometric_stiffness = false}) {
+      reference_(bench::ReferenceSettings(),
+                 {.geometric_stiffness = false, .resting_slop = false}) {
   for (SolverChoice solver : SmallSolvers()) {
     solver.threads = setup.threads;
     shadows_.push_back(std::make_unique<Shadow>());
-    shadows_.back()->contestant = solver.Make();
+    shadows_.back()->contestant = solver.MakeForSameStates();
   }
 }
 

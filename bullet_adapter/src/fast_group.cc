@@ -31,17 +31,18 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),
                            &twist_memory_};
   twist_memory_.Begin();
-  contacts_.Begin(info, limits, start);
+  const ContactSoftness softness(info, options);
+  contacts_.Begin(info, limits, softness, start);
   const bool all = options.contacts == ContactForm::kManifolds && threads_->several() &&
                    contacts_.AppendAll(group.manifolds, &bodies_, &pushes_, threads_);
-  if (!all) ReadContacts(group.manifolds, info, limits, options.contacts, start);
+  if (!all) ReadContacts(group.manifolds, info, limits, options.contacts, softness, start);
   contacts_.End();
   FindMotions();
 }
 
 void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
                              const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
-                             const ContactStart& start) {
+                             const ContactSoftness& softness, const ContactStart& start) {
   const ContactTerms terms(info, limits);
   ContactRowBuilder builder(terms, bodies_, &group_, &pushes_);
   ManifoldInput input;
@@ -51,7 +52,7 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
     const bool taken =
         form == ContactForm::kManifolds && contacts_.Append(manifold, &bodies_, &pushes_);
     if (taken) continue;
-    ReadManifold(manifold, info, start, &bodies_, &input);
+    ReadManifold(manifold, info, softness, start, &bodies_, &input);
     builder.Append(input);
   }
 }

@@ -73,7 +73,7 @@ class FastGroup {
  private:
   void ReadContacts(std::span<btPersistentManifold* const> manifolds,
                     const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
-                    const ContactStart& start);
+                    const ContactSoftness& softness, const ContactStart& start);
   void FindMotions();
 
   detail::Threads* threads_ = nullptr;

@@ -367,6 +367,7 @@ void WorldGame::ChangeOptions() {
   options.warm_start_friction = !choices_.OneIn(4);
   options.warm_start_joints = !choices_.OneIn(4);
   options.geometric_stiffness = !choices_.OneIn(4);
+  options.resting_slop = !choices_.OneIn(4);
   if (choices_.OneIn(8)) solver_->reset();
 }
 

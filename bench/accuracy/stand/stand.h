@@ -27,7 +27,7 @@ struct StandOptions {
 struct StandRun {
   std::uint64_t seed = 0;
   /// The first second at whose end it had fallen, or a body was faster than 1000 m/s.
-  std::optional<int> fell;
+  std::optional<int> fell = {};
   double lost = 0;   ///< Largest height lost at the end of a second, until it fell [m].
   double speed = 0;  ///< Largest at the end of the run, or when it fell [m/s].
   double gap = 0;    ///< Largest joint gap at the end of a second [m]; NaN without joints.

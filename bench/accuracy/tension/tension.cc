@@ -97,6 +97,7 @@ std::span<const TensionSolver> TensionSolvers() {
   static const TensionSolver solvers[] = {
       Cairn("cairn", "Cairn as it comes", {}),
       Cairn("cairn-plain", "without geometric stiffness", {}, {.geometric_stiffness = false}),
+      Cairn("cairn-hard", "contacts that last stay hard", {}, {.resting_slop = false}),
       Cairn("cairn-cold", "joints and friction start from zero", {},
             {.warm_start_friction = false, .warm_start_joints = false}),
       Cairn("cairn-always", "a subspace step in every frame", always()),

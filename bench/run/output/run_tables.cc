@@ -146,7 +146,8 @@ std::string ReadingHelp(const RunResult& run) {
     help += fmt::format(
         "v error: largest body velocity error against a converged reference, all solvers given "
         "the\n"
-        "same states, which are from the run of {}.\n",
+        "same states, which are from the run of {}, and contacts that are not made gentle with "
+        "age.\n",
         sources);
   }
   for (const SceneResult& scene : run.scenes) {

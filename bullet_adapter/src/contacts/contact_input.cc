@@ -104,40 +104,25 @@ void Start(const ContactStart& start, ContactInput* input) {
   for (btScalar& impulse : input->twist_impulses) impulse *= start.friction;
 }
 
-void ReadPoint(const Sides& sides, const btContactSolverInfo& info, ContactInput* input) {
+void ReadPoint(const Sides& sides, const btContactSolverInfo& info, const Softness& softness,
+               ContactInput* input) {
   const btManifoldPoint& point = *input->point;
   input->arm_a = point.getPositionWorldOnA() - sides.origin_a;
   input->arm_b = point.getPositionWorldOnB() - sides.origin_b;
   input->normal = point.m_normalWorldOnB;
-  input->distance = point.getDistance() + info.m_linearSlop;
+  input->distance = point.getDistance() + softness.slop;
   input->restitution = point.m_combinedRestitution;
   input->normal_impulse = point.m_appliedImpulse;
-  const Softness softness = SoftnessOf(point, info);
-  input->erp = softness.erp;
-  input->compliance = softness.compliance;
+  input->softness = softness;
   ReadFriction(sides, info, input);
   ReadTwists(sides.manifold, input);
 }
 
 }  // namespace
 
-Softness SoftnessOf(const btManifoldPoint& point, const btContactSolverInfo& info) {
-  btScalar cfm = info.m_globalCfm, erp = info.m_erp2;
-  const int flags = point.m_contactPointFlags;
-  if ((flags & (BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_HAS_CONTACT_ERP)) != 0) {
-    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) cfm = point.m_contactCFM;
-    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0) erp = point.m_contactERP;
-  } else if ((flags & BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING) != 0) {
-    const btScalar spring = info.m_timeStep * point.m_combinedContactStiffness1;
-    const btScalar sum = btMax(spring + point.m_combinedContactDamping1, SIMD_EPSILON);
-    cfm = 1 / sum;
-    erp = spring / sum;
-  }
-  return {.erp = erp, .compliance = NotBelowZero(cfm) / info.m_timeStep};
-}
-
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
-                  const ContactStart& start, BodyTable* bodies, ManifoldInput* result) {
+                  const ContactSoftness& softness, const ContactStart& start, BodyTable* bodies,
+                  ManifoldInput* result) {
   result->points = 0;
   if (manifold->getNumContacts() == 0) return;
   const ContactEnd a = bodies->EndOf(*manifold->getBody0());
@@ -148,13 +133,14 @@ void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& inf
   result->tangents = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;
 
   const Sides sides = ReadSides(*manifold, *result, *bodies);
+  const Softness common = softness.Of(*manifold);
   const btScalar threshold = manifold->getContactProcessingThreshold();
   for (int i = 0; i < manifold->getNumContacts(); ++i) {
     btManifoldPoint& point = manifold->getContactPoint(i);
     if (!(point.getDistance() <= threshold)) continue;
     ContactInput& input = result->inputs[result->points++];
     input.point = &point;
-    ReadPoint(sides, info, &input);
+    ReadPoint(sides, info, softness.Of(point, common), &input);
     Start(start, &input);
   }
 }

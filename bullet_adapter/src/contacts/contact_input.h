@@ -6,6 +6,7 @@
 
 #include "body_table.h"
 #include "cairn/bullet/precision.h"
+#include "contacts/contact_softness.h"
 #include "contacts/friction_directions.h"
 #include "contacts/twist_memory.h"
 
@@ -18,10 +19,9 @@ struct ContactInput {
   btVector3 arm_a, arm_b;      ///< From the origins of the objects [m].
   btVector3 normal;            ///< Unit length, on B, towards A.
   btVector3 tangents[2];       ///< Directions of friction, of unit length unless it is anisotropic.
-  btScalar distance;           ///< With the slop [m]; negative inside.
+  btScalar distance;           ///< With the slop of its softness [m]; negative inside.
   btScalar restitution;        ///< [1]
-  btScalar erp;                ///< Share of the penetration that a step takes away [1].
-  btScalar compliance;         ///< Of the normal [1/kg].
+  Softness softness;           ///< Of the normal.
   btScalar friction;           ///< Coefficient [1], >= 0.
   btScalar slip;               ///< Bullet's cfm of friction, in units of its step D [1].
   btScalar tangent_speeds[2];  ///< Targets of friction [m/s].
@@ -42,13 +42,6 @@ struct ManifoldInput {
   ContactInput inputs[MANIFOLD_CACHE_SIZE];
 };
 
-/// How a normal gives way: share of the penetration that a step takes away [1], compliance [1/kg].
-struct Softness {
-  btScalar erp, compliance;
-};
-/// Of the world, of the point, or from its stiffness and damping.
-Softness SoftnessOf(const btManifoldPoint& point, const btContactSolverInfo& info);
-
 /// What contacts start from: factors of the impulses of the substep before, in [0, 1].
 struct ContactStart {
   btScalar normal = 0, friction = 0;
@@ -59,7 +52,8 @@ struct ContactStart {
 /// else. The result has no points if neither body reacts.
 /// @param[out] result  only as many inputs are written as it has points
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
-                  const ContactStart& start, BodyTable* bodies, ManifoldInput* result);
+                  const ContactSoftness& softness, const ContactStart& start, BodyTable* bodies,
+                  ManifoldInput* result);
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet

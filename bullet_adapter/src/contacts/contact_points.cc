@@ -17,21 +17,17 @@ void Put(const btVector3& from, float* to) {
   to[2] = static_cast<float>(from.z());
 }
 
-/// Flags with which a point has its own softness.
-constexpr int kOwnSoftness = BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_HAS_CONTACT_ERP |
-                             BT_CONTACT_FLAG_CONTACT_STIFFNESS_DAMPING;
-
 }  // namespace
 
 void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
-                          const ContactStart& start) {
+                          const ContactSoftness& softness, const ContactStart& start) {
   manifold_count_ = 0;
   count_ = 0;
   twists_.clear();
   twist_impulses_.clear();
   info_ = info;
   start_ = start;
-  softness_ = {.erp = info.m_erp2, .compliance = NotBelowZero(info.m_globalCfm) / info.m_timeStep};
+  softness_ = softness;
   // below 0 all bounce
   law_ = {.bounce_speed = static_cast<float>(NotBelowZero(info.m_restitutionVelocityThreshold)),
           .host = {.spin_before_torques = true}};
@@ -90,9 +86,13 @@ bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
 
   if (manifold_count_ == manifolds_.size()) manifolds_.emplace_back();
   Describe(ends, found, count_, &manifolds_[manifold_count_++]);
+  const Softness common = found.pushed ? softness_.Of(*manifold) : Softness{};
   const size_t end = count_ + found.points;
   for (; count_ < end; ++count_) {
-    if (found.pushed) AddPush(ends, *sources_[count_], *bodies, pushes);
+    if (found.pushed) {
+      const btManifoldPoint& point = *sources_[count_];
+      AddPush(ends, point, softness_.Of(point, common), *bodies, pushes);
+    }
     if (found.rolls) AddTwist(count_);
   }
   return true;
@@ -102,11 +102,12 @@ ContactPoints::Features ContactPoints::ReadPoints(const Ends& ends, btPersistent
                                                   size_t place) {
   const int count = manifold->getNumContacts();
   const btScalar threshold = manifold->getContactProcessingThreshold();
+  const Softness common = softness_.Of(*manifold);
   Features found;
   for (int i = 0; i < count; ++i) {
     btManifoldPoint& point = manifold->getContactPoint(i);
     if (!(point.getDistance() <= threshold)) continue;
-    ReadPoint(ends, point, place + found.points, &found);
+    ReadPoint(ends, point, softness_.Of(point, common), place + found.points, &found);
     sources_[place + found.points] = &point;
     ++found.points;
   }
@@ -119,11 +120,11 @@ bool ContactPoints::IsPushed(btScalar distance) const {
          distance <= btMin(btScalar(0), info_.m_splitImpulsePenetrationThreshold);
 }
 
-void ContactPoints::AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
+void ContactPoints::AddPush(const Ends& ends, const btManifoldPoint& point,
+                            const Softness& softness, const BodyTable& bodies,
                             SplitImpulse* pushes) {
-  const btScalar distance = point.getDistance() + info_.m_linearSlop;
+  const btScalar distance = point.getDistance() + softness.slop;
   if (!IsPushed(distance)) return;
-  const Softness softness = SoftnessOf(point, info_);
   const btScalar out = -distance * softness.erp / info_.m_timeStep;
   if (out == 0) return;
   const btVector3 zero(0, 0, 0), &normal = point.m_normalWorldOnB;
@@ -139,11 +140,10 @@ void ContactPoints::AddPush(const Ends& ends, const btManifoldPoint& point, cons
   pushes->Add({ends.a.number, ends.b.number, axes, out, softness.compliance}, info_.m_sor, bodies);
 }
 
-void ContactPoints::ReadPoint(const Ends& ends, const btManifoldPoint& source, size_t place,
-                              Features* found) {
+void ContactPoints::ReadPoint(const Ends& ends, const btManifoldPoint& source,
+                              const Softness& softness, size_t place, Features* found) {
   const int flags = source.m_contactPointFlags;
-  const Softness softness = (flags & kOwnSoftness) != 0 ? SoftnessOf(source, info_) : softness_;
-  const btScalar distance = source.getDistance() + info_.m_linearSlop;
+  const btScalar distance = source.getDistance() + softness.slop;
   const bool pushed = IsPushed(distance);
   found->flags |= flags;
   found->pushed |= pushed;

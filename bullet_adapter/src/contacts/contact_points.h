@@ -24,7 +24,8 @@ inline namespace CAIRN_BULLET_PRECISION {
 class ContactPoints {
  public:
   /// Begins a group.
-  void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactStart& start);
+  void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactSoftness& softness,
+             const ContactStart& start);
   /// Ends it: no manifold follows.
   void End();
   /// Appends a manifold, and its deep penetration to @p pushes. False if it has to be written out
@@ -97,19 +98,22 @@ class ContactPoints {
   void MeetStrangers(BodyTable* bodies, Part* part) const;
   void ReadPart(Part* part);
   void ReadRest(const Part& part, const BodyTable& bodies, SplitImpulse* pushes);
-  void ReadPoint(const Ends& ends, const btManifoldPoint& source, size_t place, Features* found);
+  /// @param softness  of the point
+  void ReadPoint(const Ends& ends, const btManifoldPoint& source, const Softness& softness,
+                 size_t place, Features* found);
   bool IsPushed(btScalar distance) const;
   void WritePart(size_t first, size_t end) const;
   /// What resists rolling at a point.
   void AddTwist(size_t place);
   /// Adds what takes a deep point apart to @p pushes.
-  void AddPush(const Ends& ends, const btManifoldPoint& point, const BodyTable& bodies,
-               SplitImpulse* pushes);
+  /// @param softness  of the point
+  void AddPush(const Ends& ends, const btManifoldPoint& point, const Softness& softness,
+               const BodyTable& bodies, SplitImpulse* pushes);
 
   btContactSolverInfo info_;
   bool takes_any_ = false;  ///< the settings of the group allow it
   int not_taken_ = 0;       ///< flags of points that have to be written out
-  Softness softness_;       ///< of points that have none of their own
+  ContactSoftness softness_;
   ContactStart start_;
   cairn::ContactLaw law_;
   Manifold like_;  ///< what all manifolds have in common

@@ -95,17 +95,17 @@ int ContactRowBuilder::AppendNormal(const ContactInput& input) {
   if (input.distance > 0) {
     target -= input.distance / terms_.time_step;
   } else {
-    const btScalar out = -input.distance * input.erp / terms_.time_step;
+    const btScalar out = -input.distance * input.softness.erp / terms_.time_step;
     if (!terms_.splits || input.distance > terms_.split_threshold) {
       target += out;
     } else if (out != 0) {
-      pushes_->Add({row_.body_a, row_.body_b, axes, out, input.compliance}, terms_.over_relaxation,
-                   bodies_);
+      pushes_->Add({row_.body_a, row_.body_b, axes, out, input.softness.compliance},
+                   terms_.over_relaxation, bodies_);
     }
   }
   Row& row = AppendRow(axes, input.normal_impulse);
   row.target = Target(target);
-  row.compliance = input.compliance;
+  row.compliance = input.softness.compliance;
   row.lo = 0;
   return static_cast<int>(group_->rows.size()) - 1;
 }

@@ -31,7 +31,6 @@ struct SubstepTimes {
 
 /// Drop-in for btSequentialImpulseConstraintSolver: pass it to a btDiscreteDynamicsWorld, which
 /// does not own it. All islands of a substep are solved as one problem, with one budget.
-///
 /// Without a budget (the default) btContactSolverInfo::m_numIterations says how hard to try. Each
 /// island makes that many accelerated sweeps, and a subspace step among them where it does more
 /// than sweeps in its place would and costs little enough (StepPolicy::kWeighed, in place of the
@@ -54,8 +53,7 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
 
   Settings& settings();
   Options& options();  ///< May be changed between substeps.
-  /// Of the last substep; of the last group where the caller does not bracket groups with
-  /// prepareSolve() and allSolved(), as btConstraintSolverPoolMt does not.
+  /// Of the last substep; of the last group if nobody calls allSolved(): btConstraintSolverPoolMt.
   const Report& report() const;
   SubstepTimes times() const;
   /// Left to Mode::kReference, or from there to Bullet's iteration, where report() is not ok(): a

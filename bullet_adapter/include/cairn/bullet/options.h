@@ -12,9 +12,8 @@ enum class Mode {
   /// Cairn. Friction and joints start from the impulses of the substep before. A group that this
   /// cannot take is left to kReference; ConstraintSolver::fell_back() tells.
   kFast,
-  /// btSequentialImpulseConstraintSolver, the base class: slower, and what kFast is measured by.
-  /// Without steps friction of a contact that lifts off keeps its impulse, as Bullet's does,
-  /// whatever Tuning::lifted_friction says.
+  /// btSequentialImpulseConstraintSolver, the base class, which is slower. Without steps friction
+  /// of what lifts off keeps its impulse, as Bullet's does, whatever Tuning::lifted_friction says.
   kReference,
 };
 
@@ -22,7 +21,7 @@ enum class Mode {
 enum class Effort {
   kAuto,  ///< kIterations without a budget, kSettings with one.
   /// btContactSolverInfo: m_numIterations, m_leastSquaresResidualThreshold, and what joints
-  /// override. Settings::max_sweeps and Settings::tolerance are not read. A budget is kept.
+  /// override, instead of Settings::max_sweeps and Settings::tolerance. A budget is kept.
   kIterations,
   /// Settings::max_sweeps, Settings::tolerance and the budget. None of the above is read.
   kSettings,
@@ -46,9 +45,12 @@ struct Options {
   bool warm_start_friction = true;
   /// The same for joints, from the substep before if this solver made it.
   bool warm_start_joints = true;
-  /// Whether the inertia of bodies is raised whose joints pull too hard for the time step; see
-  /// Settings::geometric_stiffness, which must be on, too. Mode::kFast.
+  /// Whether bodies are stiffened. Settings::geometric_stiffness must be on, too. Mode::kFast.
   bool geometric_stiffness = true;
+  /// Whether contacts that have lasted for 4 s become gentle over 2 s, so that towers do not rock:
+  /// they rest .1 g h^2 deep (0.3 mm at 60 Hz), and m_erp2 counts for three quarters. Not where
+  /// m_linearSlop is set, or at points with a CFM, ERP or stiffness of their own. Mode::kFast.
+  bool resting_slop = true;
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/contact_softness.h"
+
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <algorithm>
+
+#include "body_table.h"
+#include "conversions.h"
+
+namespace cairn::bullet {
+inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+// Chosen on heavy tops and growing towers; see docs/lab/steps.md, Towers that rock.
+
+/// A contact rests from this age on [s]: twice the time after which Bullet lets bodies sleep.
+constexpr auto kRestsFrom = btScalar(4);
+/// For so long it becomes gentler [s]: it must not be seen.
+constexpr auto kSettles = btScalar(2);
+/// How deep it then rests, of the way of a body in the first step of its fall.
+constexpr auto kSlop = btScalar(0.1);
+/// How much of the ERP of the world it then has.
+constexpr auto kErp = btScalar(0.75);
+
+/// How a world accelerates an object [m/s^2].
+btScalar GravityOf(const btCollisionObject* object) {
+  const btRigidBody* const rigid = btRigidBody::upcast(object);
+  return rigid != nullptr && Reacts(*rigid) ? rigid->getGravity().length() : btScalar(0);
+}
+
+/// Steps since the oldest point of a manifold was found.
+int StepsOf(const btPersistentManifold& manifold) {
+  int steps = 0;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    steps = std::max(steps, manifold.getContactPoint(i).getLifeTime());
+  }
+  return steps;
+}
+
+}  // namespace
+
+ContactSoftness::ContactSoftness(const btContactSolverInfo& info, const Options& options)
+    : time_step_(info.m_timeStep),
+      cfm_(info.m_globalCfm),
+      world_{.erp = info.m_erp2,
+             .compliance = NotBelowZero(info.m_globalCfm) / info.m_timeStep,
+             .slop = info.m_linearSlop},
+      rests_(options.resting_slop && info.m_linearSlop == 0) {}
+
+Softness ContactSoftness::Rest(const btPersistentManifold& manifold) const {
+  const btScalar age = btScalar(StepsOf(manifold)) * time_step_;
+  if (!(age > kRestsFrom)) return world_;
+  const btScalar gravity = btMax(GravityOf(manifold.getBody0()), GravityOf(manifold.getBody1()));
+  if (gravity == 0) return world_;
+  const btScalar part = btMin((age - kRestsFrom) / kSettles, btScalar(1));
+  Softness softness = world_;
+  softness.slop = part * kSlop * gravity * time_step_ * time_step_;
+  softness.erp *= 1 - part * (1 - kErp);
+  return softness;
+}
+
+Softness ContactSoftness::Own(const btManifoldPoint& point) const {
+  btScalar cfm = cfm_, erp = world_.erp;
+  const int flags = point.m_contactPointFlags;
+  if ((flags & (BT_CONTACT_FLAG_HAS_CONTACT_CFM | BT_CONTACT_FLAG_HAS_CONTACT_ERP)) != 0) {
+    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_CFM) != 0) cfm = point.m_contactCFM;
+    if ((flags & BT_CONTACT_FLAG_HAS_CONTACT_ERP) != 0) erp = point.m_contactERP;
+  } else {
+    const btScalar spring = time_step_ * point.m_combinedContactStiffness1;
+    const btScalar sum = btMax(spring + point.m_combinedContactDamping1, SIMD_EPSILON);
+    cfm = 1 / sum;
+    erp = spring / sum;
+  }
+  return {.erp = erp, .compliance = NotBelowZero(cfm) / time_step_, .slop = world_.slop};
+}
+
+}  // namespace CAIRN_BULLET_PRECISION
+}  // namespace cairn::bullet

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Contacts that last become gentle: Options::resting_slop.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "cairn/bullet/constraint_solver.h"
+#include "scenes/facts.h"
+#include "scenes/world.h"
+#include "tests/bullet_adapter/scene_world.h"
+
+namespace cairn::test {
+namespace {
+
+using bench::At;
+using bench::World;
+
+constexpr double kStep = 1.0 / 60, kGravity = 9.81;
+/// What a body falls in the first step [m].
+constexpr double kFall = kGravity * kStep * kStep;
+/// Steps until contacts rest, and until they have settled.
+constexpr int kFour = 240, kSix = 360;
+
+/// Three boxes of 1 m on each other, placed as their seed says.
+class Stack {
+ public:
+  using Change = std::function<void(World*)>;
+
+  explicit Stack(
+      const bullet::Options& options, const Change& change = [](World*) {},
+      const Settings& settings = {})
+      : solver_(settings, options), world_(&solver_) {
+    world_.AddGround(10);
+    for (int i = 0; i < 3; ++i) {
+      const btScalar shift = btScalar(0.01) * btScalar(i);
+      boxes_.push_back(world_.AddBox(btVector3(1, 1, 1) / 2,
+                                     {.mass = 2, .pose = At(shift, i + btScalar(0.5), -shift)}));
+    }
+    change(&world_);
+  }
+  Stack& Step(int steps, int parts = 1) {
+    for (int i = 0; i < steps; ++i) world_.Step(parts);
+    return *this;
+  }
+  double Height() const {
+    return static_cast<double>(boxes_.back()->getWorldTransform().getOrigin().y());
+  }
+  /// Where all are.
+  std::vector<btScalar> Places() const {
+    std::vector<btScalar> places;
+    for (const btRigidBody* box : boxes_) {
+      const btVector3& at = box->getWorldTransform().getOrigin();
+      places.insert(places.end(), {at.x(), at.y(), at.z()});
+    }
+    return places;
+  }
+
+ private:
+  bullet::ConstraintSolver solver_;
+  World world_;
+  std::vector<btRigidBody*> boxes_;
+};
+
+constexpr bullet::Options kOff{.resting_slop = false};
+
+TEST(Resting, YoungContactsAreBullets) {
+  EXPECT_EQ(Stack({}).Step(kFour).Places(), Stack(kOff).Step(kFour).Places());
+  EXPECT_NE(Stack({}).Step(kSix).Places(), Stack(kOff).Step(kSix).Places());
+}
+
+TEST(Resting, EachContactComesToLieATenthOfAFallDeep) {
+  for (const bullet::ContactForm form :
+       {bullet::ContactForm::kManifolds, bullet::ContactForm::kRows}) {
+    Stack on({.contacts = form}), off({.contacts = form, .resting_slop = false});
+    on.Step(kSix + 60);
+    off.Step(kSix + 60);
+    EXPECT_NEAR(off.Height() - on.Height(), 3 * 0.1 * kFall, 0.05 * kFall);
+  }
+}
+
+TEST(Resting, IsAsDeepAsTheStepIsLong) {
+  Stack on({}), off(kOff);
+  on.Step(kSix + 60, 2);
+  off.Step(kSix + 60, 2);
+  EXPECT_NEAR(off.Height() - on.Height(), 3 * 0.1 * kFall / 4, 0.05 * kFall / 4);
+}
+
+TEST(Resting, LeavesAloneWhatItsUserSet) {
+  const auto expect_same = [](const Stack::Change& change) {
+    EXPECT_EQ(Stack({}, change).Step(kSix).Places(), Stack(kOff, change).Step(kSix).Places());
+  };
+  expect_same([](World* world) { world->solver_info().m_linearSlop = btScalar(0.001); });
+  expect_same([](World* world) {
+    for (btRigidBody* box : world->dynamic_bodies()) box->setContactStiffnessAndDamping(1e5, 1e3);
+  });
+  const bullet::Options reference{.mode = bullet::Mode::kReference},
+      reference_off{.mode = bullet::Mode::kReference, .resting_slop = false};
+  EXPECT_EQ(Stack(reference).Step(kSix).Places(), Stack(reference_off).Step(kSix).Places());
+}
+
+TEST(Resting, NothingRestsWithoutGravity) {
+  const auto pressed = [](World* world) {
+    world->bullet()->setGravity({0, 0, 0});
+    for (btRigidBody* box : world->dynamic_bodies()) {
+      box->setGravity({0, 0, 0});
+      box->setLinearVelocity({0, btScalar(-0.01), 0});
+    }
+  };
+  Stack on({}, pressed), off(kOff, pressed);
+  EXPECT_EQ(on.Step(kSix).Height(), off.Step(kSix).Height());
+}
+
+TEST(Resting, HasTheSameBitsOnSeveralThreads) {
+  EXPECT_EQ(Stack({}).Step(kSix).Places(),
+            Stack({}, [](World*) {}, {.threads = 3}).Step(kSix).Places());
+}
+
+/// The fastest of some heavy tops after half a minute [m/s].
+double FastestHeavyTop(const bullet::Options& options) {
+  double fastest = 0;
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    bullet::ConstraintSolver solver({}, options);
+    SceneWorld world("heavy-top", &solver, seed);
+    world.Step(1800);
+    fastest = std::max(fastest, bench::LargestSpeed(world.world()));
+  }
+  return fastest;
+}
+
+TEST(Resting, HeavyTopsRockNoMore) { EXPECT_LT(FastestHeavyTop({}), 0.5 * FastestHeavyTop(kOff)); }
+
+}  // namespace
+}  // namespace cairn::test
