@@ -24,7 +24,7 @@ constexpr double kFall = kGravity * kStep * kStep;
 /// Steps until contacts rest, and until they have settled.
 constexpr int kFour = 240, kSix = 360;
 
-/// Three boxes of 1 m on each other, placed as their seed says.
+/// Three boxes of 1 m on each other, each 1 cm aside of the one below.
 class Stack {
  public:
   using Change = std::function<void(World*)>;
@@ -102,15 +102,18 @@ TEST(Resting, LeavesAloneWhatItsUserSet) {
 }
 
 TEST(Resting, NothingRestsWithoutGravity) {
+  // held down by a force, and no less hard
   const auto pressed = [](World* world) {
-    world->bullet()->setGravity({0, 0, 0});
-    for (btRigidBody* box : world->dynamic_bodies()) {
-      box->setGravity({0, 0, 0});
-      box->setLinearVelocity({0, btScalar(-0.01), 0});
-    }
+    for (btRigidBody* box : world->dynamic_bodies()) box->setGravity({0, 0, 0});
+    const auto press = [](btDynamicsWorld* all, btScalar) {
+      for (int i = 0; i < all->getNumCollisionObjects(); ++i) {
+        btRigidBody* const body = btRigidBody::upcast(all->getCollisionObjectArray()[i]);
+        if (body->getInvMass() > 0) body->applyCentralForce({0, btScalar(-20), 0});
+      }
+    };
+    world->bullet()->setInternalTickCallback(press, nullptr, true);
   };
-  Stack on({}, pressed), off(kOff, pressed);
-  EXPECT_EQ(on.Step(kSix).Height(), off.Step(kSix).Height());
+  EXPECT_EQ(Stack({}, pressed).Step(kSix).Places(), Stack(kOff, pressed).Step(kSix).Places());
 }
 
 TEST(Resting, HasTheSameBitsOnSeveralThreads) {
@@ -118,19 +121,23 @@ TEST(Resting, HasTheSameBitsOnSeveralThreads) {
             Stack({}, [](World*) {}, {.threads = 3}).Step(kSix).Places());
 }
 
-/// The fastest of some heavy tops after half a minute [m/s].
-double FastestHeavyTop(const bullet::Options& options) {
-  double fastest = 0;
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+/// The median speed of some heavy tops after half a minute [m/s].
+double SpeedOfHeavyTops(const bullet::Options& options) {
+  std::vector<double> speeds;
+  for (std::uint64_t seed = 0; seed < 9; ++seed) {
     bullet::ConstraintSolver solver({}, options);
     SceneWorld world("heavy-top", &solver, seed);
     world.Step(1800);
-    fastest = std::max(fastest, bench::LargestSpeed(world.world()));
+    speeds.push_back(bench::LargestSpeed(world.world()));
   }
-  return fastest;
+  std::ranges::nth_element(speeds, speeds.begin() + 4);
+  return speeds[4];
 }
 
-TEST(Resting, HeavyTopsRockNoMore) { EXPECT_LT(FastestHeavyTop({}), 0.5 * FastestHeavyTop(kOff)); }
+// 0.005 m/s and 0.08 m/s are usual
+TEST(Resting, HeavyTopsRockNoMore) {
+  EXPECT_LT(SpeedOfHeavyTops({}), 0.25 * SpeedOfHeavyTops(kOff));
+}
 
 }  // namespace
 }  // namespace cairn::test

@@ -130,13 +130,9 @@ void ContactPoints::ReadRest(const Part& part, const BodyTable& bodies, SplitImp
   for (const Rest& rest : part.rest) {
     const Manifold& manifold = manifolds_[rest.manifold];
     const Ends ends{*rest.entry.a, *rest.entry.b};
-    const Softness common = rest.pushed ? softness_.Of(*rest.entry.manifold) : Softness{};
     for (size_t i = manifold.first_point; i < size_t{0} + manifold.first_point + manifold.points;
          ++i) {
-      if (rest.pushed) {
-        const btManifoldPoint& point = *sources_[i];
-        AddPush(ends, point, softness_.Of(point, common), bodies, pushes);
-      }
+      if (rest.pushed) AddPush(ends, *rest.entry.manifold, *sources_[i], bodies, pushes);
       if (rest.rolls) AddTwist(i);
     }
   }

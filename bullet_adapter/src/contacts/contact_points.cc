@@ -86,13 +86,9 @@ bool ContactPoints::Append(btPersistentManifold* manifold, BodyTable* bodies,
 
   if (manifold_count_ == manifolds_.size()) manifolds_.emplace_back();
   Describe(ends, found, count_, &manifolds_[manifold_count_++]);
-  const Softness common = found.pushed ? softness_.Of(*manifold) : Softness{};
   const size_t end = count_ + found.points;
   for (; count_ < end; ++count_) {
-    if (found.pushed) {
-      const btManifoldPoint& point = *sources_[count_];
-      AddPush(ends, point, softness_.Of(point, common), *bodies, pushes);
-    }
+    if (found.pushed) AddPush(ends, *manifold, *sources_[count_], *bodies, pushes);
     if (found.rolls) AddTwist(count_);
   }
   return true;
@@ -120,9 +116,10 @@ bool ContactPoints::IsPushed(btScalar distance) const {
          distance <= btMin(btScalar(0), info_.m_splitImpulsePenetrationThreshold);
 }
 
-void ContactPoints::AddPush(const Ends& ends, const btManifoldPoint& point,
-                            const Softness& softness, const BodyTable& bodies,
+void ContactPoints::AddPush(const Ends& ends, const btPersistentManifold& manifold,
+                            const btManifoldPoint& point, const BodyTable& bodies,
                             SplitImpulse* pushes) {
+  const Softness softness = softness_.Of(point, softness_.Of(manifold));
   const btScalar distance = point.getDistance() + softness.slop;
   if (!IsPushed(distance)) return;
   const btScalar out = -distance * softness.erp / info_.m_timeStep;

@@ -105,9 +105,8 @@ class ContactPoints {
   void WritePart(size_t first, size_t end) const;
   /// What resists rolling at a point.
   void AddTwist(size_t place);
-  /// Adds what takes a deep point apart to @p pushes.
-  /// @param softness  of the point
-  void AddPush(const Ends& ends, const btManifoldPoint& point, const Softness& softness,
+  /// Adds what takes a deep point of a manifold apart to @p pushes.
+  void AddPush(const Ends& ends, const btPersistentManifold& manifold, const btManifoldPoint& point,
                const BodyTable& bodies, SplitImpulse* pushes);
 
   btContactSolverInfo info_;

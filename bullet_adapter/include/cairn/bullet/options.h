@@ -45,7 +45,7 @@ struct Options {
   bool warm_start_friction = true;
   /// The same for joints, from the substep before if this solver made it.
   bool warm_start_joints = true;
-  /// Whether bodies are stiffened. Settings::geometric_stiffness must be on, too. Mode::kFast.
+  /// Whether bodies under tension are stiffened, if Settings::geometric_stiffness is on; kFast.
   bool geometric_stiffness = true;
   /// Whether contacts that have lasted for 4 s become gentle over 2 s, so that towers do not rock:
   /// they rest .1 g h^2 deep (0.3 mm at 60 Hz), and m_erp2 counts for three quarters. Not where
