@@ -23,11 +23,13 @@ std::string ShrinkOne(const bench::CampaignOptions& options, const bench::WorldR
       "{}: {} {:.3g} > {:.3g}; {} bodies, {} joints, {:.3g} s, worst frame {}{}\n", stem,
       NameOf(shrunk.finding.oracle), shrunk.finding.value, shrunk.finding.line, shrunk.trial.bodies,
       shrunk.trial.joints, shrunk.seconds, shrunk.worst_frame, recorded ? "" : " (not recorded)");
-  WriteFile(path + ".txt",
-            fmt::format("{}{}\ncairn worlds --seed {} --scale {} --seconds {} --solver {}{} "
-                        "--report\n",
-                        line, DescribeWorld(shrunk.world), result.seed, shrunk.world.scale,
-                        shrunk.seconds, solver.name, shrunk.world.locks ? " --locks" : ""));
+  WriteFile(
+      path + ".txt",
+      fmt::format("{}{}\ncairn worlds --seed {} --scale {} --seconds {} --solver {}{}{}{} "
+                  "--report\n",
+                  line, DescribeWorld(shrunk.world), result.seed, shrunk.world.scale,
+                  shrunk.seconds, solver.name, shrunk.world.locks ? " --locks" : "",
+                  shrunk.world.heavy ? " --heavy" : "", shrunk.world.crowded ? " --crowded" : ""));
   return line;
 }
 

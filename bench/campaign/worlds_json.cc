@@ -112,8 +112,13 @@ void CheckContext(const Json& json, const bench::CampaignOptions& options,
          fmt::format("its worlds are {} s long, these {} s; --seconds says how long",
                      json.at("seconds").dump(), options.trial.seconds));
   expect(json.at("scale") == options.trial.world.scale, "its worlds have another --scale");
-  expect(json.value("locks", false) == options.trial.world.locks,
-         "only its worlds, or only these, are of --locks");
+  const auto expect_alike = [&](const char* option, bool ours) {
+    expect(json.value(option, false) == ours,
+           fmt::format("only its worlds, or only these, are of --{}", option));
+  };
+  expect_alike("locks", options.trial.world.locks);
+  expect_alike("heavy", options.trial.world.heavy);
+  expect_alike("crowded", options.trial.world.crowded);
   expect(
       there.at("version") == here.at("version") && there.at("precision") == here.at("precision"),
       fmt::format("it is of Bullet {} {}, this is {} {}", there.at("version").get<std::string>(),
@@ -155,6 +160,7 @@ std::string WorldsToJson(const bench::CampaignOptions& options,
   const Json json = {
       {"context", ToJson(DescribeContext(command))}, {"seconds", options.trial.seconds},
       {"scale", options.trial.world.scale},          {"locks", options.trial.world.locks},
+      {"heavy", options.trial.world.heavy},          {"crowded", options.trial.world.crowded},
       {"audit_every", options.trial.audit_every},    {"worlds", worlds}};
   return json.dump(1) + "\n";
 }

@@ -26,7 +26,8 @@ namespace {
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
   std::string seconds = "5", scale = "1", jobs, json, shrink, beside, doubts = "0";
-  bool list = false, report = false, audit = false, bits = false, locks = false, heavy = false;
+  bool list = false, report = false, audit = false, bits = false, locks = false, heavy = false,
+       crowded = false;
   OutputWords output;
 };
 
@@ -114,6 +115,7 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.trial.audit_every = words.audit || words.report ? 1 : 10;
   options.trial.world.locks = words.locks;
   options.trial.world.heavy = words.heavy;
+  options.trial.world.crowded = words.crowded;
   const int cores = std::max(1u, std::thread::hardware_concurrency());
   options.jobs = words.jobs.empty()
                      ? cores
@@ -195,6 +197,8 @@ Command AddWorldsCommand(CLI::App* app) {
                    "Bodies with locked axes, as games in a plane have them; no momentum then");
   worlds->add_flag("--heavy", words->heavy,
                    "Loads on ropes, chains and bridges are 10 to 10,000 times as heavy");
+  worlds->add_flag("--crowded", words->crowded,
+                   "Hubs touch or hold up to 500 bodies instead of 50");
   worlds->add_flag("--list", words->list, "Names the kinds of worlds");
   worlds->add_flag("--report", words->report, "Shows each world in detail; best with --seed");
   worlds->add_flag("--audit", words->audit, "Audits every substep, not every tenth");

@@ -20,18 +20,21 @@ struct Event {
 
 /// Whether what hangs on ropes and lies on bridges is made heavier than a kind has it.
 enum class Loads { kAsDrawn, kHeavy };
+/// Whether ten times as many bodies may touch one as a kind has it.
+enum class Hubs { kAsDrawn, kCrowded };
 
 /// A world while it is drawn: random numbers, and bodies and joints that fit each other. Lengths in
 /// m, masses in kg; all bodies have the surface of the rules.
 class Draft {
  public:
   /// @param scale  in (0, 1]: how much of its size the world may have; see Count()
-  Draft(World* world, Rules* rules, std::uint64_t seed, double scale, Loads loads)
+  Draft(World* world, Rules* rules, std::uint64_t seed, double scale, Loads loads, Hubs hubs)
       : world_(world),
         rules_(rules),
         random_(seed),
         load_random_(~seed),
         loads_(loads),
+        hubs_(hubs),
         scale_(scale) {}
 
   World* world() { return world_; }
@@ -50,6 +53,10 @@ class Draft {
   int Choose(int n) { return static_cast<int>(random_.Within(0, n)); }
   /// A size within [least, most], scaled down but never below `least`.
   int Count(int least, int most);
+  /// The same of bodies that touch one.
+  int CountOfHub(int least, int most) {
+    return Count(least, hubs_ == Hubs::kCrowded ? 10 * most : most);
+  }
 
   /// A mass of 0 makes a body static.
   btRigidBody* Box(const btVector3& half, btScalar mass, const btTransform& pose);
@@ -86,6 +93,7 @@ class Draft {
   Rules* rules_;
   Random random_, load_random_;
   Loads loads_;
+  Hubs hubs_;
   double scale_;
   std::vector<Event> events_;
 };

@@ -55,7 +55,8 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
   Random random(Stream(seed.seed, kRuleStream));
   rules_ = DrawRules(&random);
   Draft draft(&world_, &rules_, Stream(seed.seed, kDraftStream), seed.scale,
-              seed.heavy ? Loads::kHeavy : Loads::kAsDrawn);
+              seed.heavy ? Loads::kHeavy : Loads::kAsDrawn,
+              seed.crowded ? Hubs::kCrowded : Hubs::kAsDrawn);
   kind_.draw(&draft);
   if (rules_.events) DrawEvents(&draft);
   Apply(rules_, &world_);
@@ -64,6 +65,7 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
     for (btRigidBody* body : world_.dynamic_bodies()) body->setFlags(0);
   }
   heavy_ = seed.heavy;
+  crowded_ = seed.crowded;
   locks_ = seed.locks;
   if (locks_) LockAxes(Random(Stream(seed.seed, kLockStream)), &world_);
   events_ = std::move(draft.events());
@@ -101,6 +103,7 @@ std::string RandomWorld::Describe() const {
        << " joints; " << bench::Describe(rules_);
   if (locks_) text << ", locked axes";
   if (heavy_) text << ", heavy loads";
+  if (crowded_) text << ", crowded hubs";
   if (!events_.empty()) text << " at";
   for (const Event& event : events_) text << ' ' << event.time;
   if (!events_.empty()) text << " s";

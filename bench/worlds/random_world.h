@@ -12,9 +12,10 @@ namespace cairn::bench {
 /// Which world: the same bits each time.
 struct WorldSeed {
   std::uint64_t seed = 0;
-  double scale = 1;    ///< In (0, 1]: smaller worlds of the same kind, to shrink one that fails.
-  bool locks = false;  ///< Bodies have locked axes; all else is as without.
-  bool heavy = false;  ///< Loads of ropes and bridges are 10 to 10,000 times as heavy, likewise.
+  double scale = 1;      ///< In (0, 1]: smaller worlds of the same kind, to shrink one that fails.
+  bool locks = false;    ///< Bodies have locked axes; all else is as without.
+  bool heavy = false;    ///< Loads of ropes and bridges are 10 to 10,000 times as heavy, likewise.
+  bool crowded = false;  ///< Ten times as many bodies may touch or hang on a hub.
 };
 
 /// The kind that a seed is of.
@@ -50,7 +51,7 @@ class RandomWorld {
   std::vector<Event> events_;
   size_t next_event_ = 0;
   double time_ = 0;
-  bool locks_ = false, heavy_ = false;
+  bool locks_ = false, heavy_ = false, crowded_ = false;
 };
 
 }  // namespace cairn::bench

@@ -7,8 +7,9 @@
 namespace cairn::simd {
 
 // A lane is a pair of bodies with all its rows, a block is 16 lanes with rows that look alike, on
-// every target: one register of AVX-512, two of AVX2, four of SSE4. Lanes of a block that share no
-// body are relaxed together, see LaneRun. Layout, padding and results do not depend on the CPU.
+// every target: one register of AVX-512, two of AVX2, four of SSE4. Lanes of a block are relaxed
+// together as far as they share no body, see LaneRun. Layout, padding and results do not depend on
+// the CPU.
 //
 // Velocities are whitened (core/src/problem/whitening.h): u = G' x, so that one vector G per row
 // serves as J and as M^-1 J'.
@@ -26,6 +27,21 @@ struct alignas(64) Line {
 struct alignas(32) BodyLane {
   float u[8];
 };
+
+/// What one lane sees of a body that other lanes of its run move at the same time: a part of it,
+/// with share^2 of its mass, as in Tonge, Benevolenski, Voroshilov 2012 (*Mass splitting for
+/// jitter-free parallel rigid body simulation*). We split only what a run shares, and add up what
+/// the parts changed by rather than take their mean: u stays G' x. As many parts as lanes share a
+/// body make up no more than all of it, so that no run gains energy.
+struct BodyCopy {
+  std::int32_t slot;  ///< of the body
+  float share;        ///< The lane sees u times this; a power of two.
+};
+/// The share of a body that so many lanes share: at most 1 / sqrt(lanes).
+inline constexpr float ShareOfBody(int lanes) {
+  return lanes <= 1 ? 1.0f : lanes <= 4 ? 0.5f : 0.25f;
+}
+static_assert(kLanes <= 16);
 
 /// What the rows of a pair look like in memory. First come the lines of the pair, then the rows.
 enum class PairForm : std::uint8_t {
@@ -96,18 +112,21 @@ constexpr int CouplingLine(PairForm form, const RowShape& row) { return RowLines
 
 /// 16 pairs with rows that look alike. Lines of unused lanes may hold anything.
 struct PairBlock {
-  std::int32_t a[kLanes];  ///< Slots of the bodies; unused lanes: 0, which holds zeros.
+  /// Slots of the bodies, or of copies, see PairWork::copies; unused lanes: 0, which holds zeros.
+  std::int32_t a[kLanes];
   std::int32_t b[kLanes];  ///< Likewise; all 0 for kSingle.
   const RowShape* rows;
   std::int32_t row_count;
-  std::int32_t lanes;  ///< In use: the first ones.
-  std::uint32_t data;  ///< First line of the block in PairWork::data.
-  std::uint32_t x;     ///< Its first line in PairWork::x, one for each row.
+  std::int32_t lanes;      ///< In use: the first ones.
+  std::uint32_t data;      ///< First line of the block in PairWork::data.
+  std::uint32_t x;         ///< Its first line in PairWork::x, one for each row.
+  std::uint32_t d_ratios;  ///< Likewise in PairWork::d_ratios, if it has copies.
   PairForm form;
+  bool copies;  ///< Some of its slots are of copies.
 };
 
-/// Lanes of a block that share no body: they are relaxed at a time, in registers of WidthOf()
-/// lanes.
+/// Lanes of a block that share no body, or see copies of what they share: they are relaxed at a
+/// time, in registers of WidthOf() lanes.
 struct LaneRun {
   std::int32_t block;
   std::int16_t first;  ///< first + WidthOf(lanes) <= kLanes
@@ -115,6 +134,7 @@ struct LaneRun {
   /// The next run has the same form and the same rows, and shares no body with this one, and both
   /// are all that their blocks have.
   bool like_next;
+  bool copies;  ///< Some of its slots are of copies.
 };
 
 /// Lanes of the registers that so many lanes are relaxed in: small worlds have short runs, and a

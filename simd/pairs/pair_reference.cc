@@ -123,7 +123,9 @@ void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, c
     const int head = n < 8 ? 4 : 8;
     const float tail = Sum(line, state->v, lane, head, n - head);
     const float step = line[n + 1].lane[lane];
-    const float inv_d = row.relaxed ? step / (bounds++)->lane[lane] : step;
+    float inv_d = row.relaxed ? step / (bounds++)->lane[lane] : step;
+    const float d_ratio = block.copies ? work.d_ratios[block.d_ratios + index].lane[lane] : 1;
+    if (pass == Pass::kMeasure) inv_d = inv_d * d_ratio;
     const float factor = pass == Pass::kMeasure ? inv_d : step;
     const float product = Sum(line, state->v, lane, 0, head) + tail;
     float moved = old + factor * (target - product);
@@ -142,7 +144,8 @@ void Relax(Pass pass, const PairWork& work, const PairBlock& block, int index, c
       const float size = std::fabs(change), e = size / inv_d;
       float& most = (row.angular ? error->max_angular : error->max).lane[lane];
       most = Max(e, most);
-      error->energy.lane[lane] = error->energy.lane[lane] + e * size;
+      const float of_d = pass == Pass::kMeasuredSweep ? size * d_ratio : size;
+      error->energy.lane[lane] = error->energy.lane[lane] + e * of_d;
     }
     if (pass == Pass::kMeasure) return;
     x[index].lane[lane] = now;
@@ -184,19 +187,49 @@ void DoLanes(Pass pass, const PairWork& work, int block, int first, int count) {
   }
 }
 
+/// function(copy, body, share) for the copies of some lanes, in their order.
+template <class Function>
+void ForCopies(const PairWork& work, int block, int first, int count, const Function& function) {
+  const PairBlock& of = work.blocks[block];
+  for (int lane = first; lane < first + count; ++lane) {
+    for (const int slot : {of.a[lane], of.b[lane]}) {
+      if (slot < work.first_copy) continue;
+      const BodyCopy& copy = work.copies[slot - work.first_copy];
+      for (int k = 0; k < 8; ++k) {
+        function(&work.bodies[slot].u[k], &work.bodies[copy.slot].u[k], copy.share);
+      }
+    }
+  }
+}
+
 template <Pass pass>
 void Run(const PairWork& work) {
   const FlushDenormals flush;
   for (int i = 0; i < work.run_count; ++i) {
     const LaneRun& run = work.runs[i];
+    const auto for_copies = [&](const auto& function) {
+      if (run.copies) ForCopies(work, run.block, run.first, run.lanes, function);
+    };
+    for_copies([](float* copy, float* body, float share) { *copy = share * *body; });
     DoLanes(pass, work, run.block, run.first, run.lanes);
+    for_copies([](float* copy, float* body, float share) { *copy = *copy - share * *body; });
+    for_copies([](float* copy, float* body, float share) {
+      *body = *body + share * *copy;
+      *copy = 0;
+    });
   }
 }
 
 void MeasureBlocks(const PairWork& work) {
   const FlushDenormals flush;
   for (int block = work.first_block; block < work.first_block + work.block_count; ++block) {
-    DoLanes(Pass::kMeasure, work, block, 0, work.blocks[block].lanes);
+    const PairBlock& of = work.blocks[block];
+    const auto for_copies = [&](const auto& function) {
+      if (of.copies) ForCopies(work, block, 0, of.lanes, function);
+    };
+    for_copies([](float* copy, float* body, float share) { *copy = share * *body; });
+    DoLanes(Pass::kMeasure, work, block, 0, of.lanes);
+    for_copies([](float* copy, float*, float) { *copy = 0; });
   }
 }
 

@@ -196,13 +196,16 @@ struct ErrorSums {
   W max, max_angular, energy;
 
   HWY_INLINE void Reset() { max = max_angular = energy = Zeros<W>(); }
-  HWY_INLINE void Add(const RowShape& row, const W& change, const W& inv_d) {
-    const W moved = Abs(change), e = Div(moved, inv_d);
+  /// @p d_ratio: of the row; null where inv_d is that of whole bodies
+  HWY_INLINE void Add(const RowShape& row, const W& change, const W& inv_d, const float* d_ratio) {
+    W moved = Abs(change);
+    const W e = Div(moved, inv_d);
     if (row.angular) {
       max_angular = Max(e, max_angular);
     } else {
       max = Max(e, max);
     }
+    if (d_ratio != nullptr) moved = Mul(moved, LoadLanes<W>(d_ratio));
     energy = AddProduct(energy, e, moved);
   }
   /// Lanes of the runs that follow, too: theirs come later.
@@ -227,7 +230,8 @@ struct RunState {
   Own own;
   PairState<form, W> pair;
   ErrorSums<W> errors;
-  ConstFromLane changed = {};  ///< the row before, if its change was not pushed yet
+  const float* d_ratio = nullptr;  ///< of the next row, in blocks with copies
+  ConstFromLane changed = {};      ///< the row before, if its change was not pushed yet
   W change_before;
 
   HWY_INLINE RunState(const PairWork& work, const LaneRun& run) : own(run.lanes) {
@@ -237,7 +241,10 @@ struct RunState {
     x = {work.x[block.x].lane + run.first};
     pair.Gather(work, place);
     line += PairLines(form);
-    if (Measures(pass)) errors.Reset();
+    if (Measures(pass)) {
+      errors.Reset();
+      if (block.copies) d_ratio = work.d_ratios[block.d_ratios].lane + run.first;
+    }
   }
   /// @p x_row: its impulses
   HWY_INLINE void DoRow(const PairWork& work, const RowShape& row, float* x_row) {
@@ -248,6 +255,10 @@ struct RunState {
       PushChange();
     }
     line += RowLines(form, row);
+    PassRatio();
+  }
+  HWY_INLINE void PassRatio() {
+    if (Measures(pass) && d_ratio != nullptr) d_ratio += kLanes;
   }
   HWY_INLINE void PushChange() {
     if (changed.lane == nullptr) return;
@@ -274,6 +285,9 @@ struct RunState {
       if (Measures(pass)) inv_d = Div(step, LoadLanes<W>(bounds[0]));
       bounds += 1;
     }
+    if (pass == Pass::kMeasure && d_ratio != nullptr) {
+      inv_d = Mul(inv_d, LoadLanes<W>(d_ratio));
+    }
     // old + factor (target - G v)
     const W factor = pass == Pass::kMeasure ? inv_d : step;
     const W error = Sub(target, Add(pair.Head(line), pair.Tail(line)));
@@ -291,7 +305,10 @@ struct RunState {
       change = WherePositive(change, LoadLanes<W>(x[row.parent]));
       now = Add(old, change);
     }
-    if (Measures(pass)) errors.Add(row, change, inv_d);
+    if (Measures(pass)) {
+      errors.Add(row, change, inv_d, pass == Pass::kMeasuredSweep ? d_ratio : nullptr);
+      PassRatio();
+    }
     if (pass != Pass::kMeasure) {
       StoreLanes(kShared ? own.Choose(now, old) : now, x_row);
       changed = line;
@@ -384,12 +401,66 @@ int DoSome(const PairWork& work, const LaneRun& run, const LaneRun* alike) {
   return 1;
 }
 
+/// function(copy, body, share) for the copies of a run, in the order of lanes.
+template <class Function>
+HWY_INLINE void ForCopies(const PairWork& work, const LaneRun& run, const Function& function) {
+  const PairBlock& block = work.blocks[run.block];
+  for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+    for (const std::int32_t* const of : {block.a, block.b}) {
+      if (of[lane] < work.first_copy) continue;
+      const BodyCopy& copy = work.copies[of[lane] - work.first_copy];
+      function(work.bodies[of[lane]].u, work.bodies[copy.slot].u, copy.share);
+    }
+  }
+}
+
+using FourTag = hn::FixedTag<float, 4>;
+
+HWY_NOINLINE void FillCopies(const PairWork& work, const LaneRun& run) {
+  ForCopies(work, run, [](float* copy, const float* body, float share) HWY_ATTR {
+    const FourTag d;
+    for (int k = 0; k < 8; k += 4) {
+      hn::Store(hn::Mul(hn::Set(d, share), hn::Load(d, body + k)), d, copy + k);
+    }
+  });
+}
+
+HWY_NOINLINE void ClearCopies(const PairWork& work, const LaneRun& run) {
+  ForCopies(work, run, [](float* copy, const float*, float) HWY_ATTR {
+    const FourTag d;
+    for (int k = 0; k < 8; k += 4) hn::Store(hn::Zero(d), d, copy + k);
+  });
+}
+
+/// Adds to each body what its copies changed by.
+HWY_NOINLINE void AddCopies(const PairWork& work, const LaneRun& run) {
+  // all changes before any body moves
+  ForCopies(work, run, [](float* copy, const float* body, float share) HWY_ATTR {
+    const FourTag d;
+    for (int k = 0; k < 8; k += 4) {
+      const auto before = hn::Mul(hn::Set(d, share), hn::Load(d, body + k));
+      hn::Store(hn::Sub(hn::Load(d, copy + k), before), d, copy + k);
+    }
+  });
+  ForCopies(work, run, [](const float* copy, float* body, float share) HWY_ATTR {
+    const FourTag d;
+    for (int k = 0; k < 8; k += 4) {
+      const auto change = hn::Mul(hn::Set(d, share), hn::Load(d, copy + k));
+      hn::Store(hn::Add(hn::Load(d, body + k), change), d, body + k);
+    }
+  });
+  ClearCopies(work, run);
+}
+
 template <Pass pass>
 void Run(const PairWork& work) {
   const FlushDenormals flush;
   for (int i = 0; i < work.run_count;) {
-    const bool two = i + 1 < work.run_count && work.runs[i].like_next;
-    i += DoSome<pass>(work, work.runs[i], two ? &work.runs[i + 1] : nullptr);
+    const LaneRun& run = work.runs[i];
+    const bool two = i + 1 < work.run_count && run.like_next;
+    if (run.copies) FillCopies(work, run);
+    i += DoSome<pass>(work, run, two ? &work.runs[i + 1] : nullptr);
+    if (run.copies) AddCopies(work, run);
   }
 }
 
@@ -397,14 +468,19 @@ void Run(const PairWork& work) {
 void MeasureBlocks(const PairWork& work) {
   const FlushDenormals flush;
   const auto whole = [&work](int block) {
-    return LaneRun{block, 0, static_cast<std::int16_t>(work.blocks[block].lanes), false};
+    const PairBlock& of = work.blocks[block];
+    return LaneRun{block, 0, static_cast<std::int16_t>(of.lanes), false, of.copies};
   };
   const int end = work.first_block + work.block_count;
   for (int block = work.first_block; block < end;) {
     const LaneRun run = whole(block), next = block + 1 < end ? whole(block + 1) : LaneRun{};
     const bool two = block + 1 < end && work.blocks[block].form == work.blocks[block + 1].form &&
                      work.blocks[block].rows == work.blocks[block + 1].rows;
+    if (run.copies) FillCopies(work, run);
+    if (two && next.copies) FillCopies(work, next);
     block += DoSome<Pass::kMeasure>(work, run, two ? &next : nullptr);
+    if (run.copies) ClearCopies(work, run);
+    if (two && next.copies) ClearCopies(work, next);
   }
 }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
+
 #include "simd/pairs/pair_block.h"
 #include "simd/target.h"
 
 namespace cairn::simd {
 
-/// Lanes to work on, in this order. What is worked on at the same time shares no body.
+/// Lanes to work on, in this order. What is worked on at the same time shares no body, except by
+/// copies.
 struct PairWork {
   const PairBlock* blocks = nullptr;
   const LaneRun* runs = nullptr;  ///< Of those blocks: what the passes that move something go over.
@@ -15,6 +18,12 @@ struct PairWork {
   const Line* data = nullptr;            ///< Constant part of the rows.
   Line* x = nullptr;                     ///< Impulses.
   BodyLane* bodies = nullptr;            ///< By slot.
+  /// Slots from first_copy on are of these. They hold zeros but during a pass over their run.
+  const BodyCopy* copies = nullptr;
+  int first_copy = std::numeric_limits<int>::max();
+  /// Of rows of blocks with copies: d as lanes see it, over that of whole bodies, which errors are
+  /// measured by.
+  const Line* d_ratios = nullptr;
   /// By block. Read by nothing, written by the passes that measure.
   BlockError* errors = nullptr;
   int sweep = 0;             ///< Sweeps of the Solve() made before this one.

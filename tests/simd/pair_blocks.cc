@@ -143,6 +143,9 @@ void PairScene::Run(PairKernels::Kernel kernel) {
   work.data = data.data();
   work.x = x.data();
   work.bodies = bodies.data();
+  work.copies = copies.data();
+  work.d_ratios = d_ratios.data();
+  work.first_copy = static_cast<int>(bodies.size() - copies.size());
   work.errors = errors.data();
   work.sweep = sweep;
   work.hold_lifted = hold_lifted;
@@ -181,7 +184,7 @@ PairScene ZeroScene(const SceneSpec& spec) {
     block.x = x;
     block.form = from.form;
     const auto index = static_cast<std::int32_t>(scene.blocks.size());
-    scene.runs.push_back({index, 0, static_cast<std::int16_t>(from.lanes), from.like_next});
+    scene.runs.push_back({index, 0, static_cast<std::int16_t>(from.lanes), from.like_next, false});
     scene.blocks.push_back(block);
     scene.shapes.push_back(from.rows);
     data += DataLines(from);
@@ -244,7 +247,7 @@ void CutRuns(unsigned seed, PairScene* scene) {
       if (first + WidthOf(lanes) > kLanes) lanes = 1 + random.Index(std::min(left, 4));
       if (first + WidthOf(lanes) > kLanes) break;
       of_blocks[b].push_back({static_cast<std::int32_t>(b), static_cast<std::int16_t>(first),
-                              static_cast<std::int16_t>(lanes), false});
+                              static_cast<std::int16_t>(lanes), false, false});
       first += lanes;
     }
     // what no run took is not used
@@ -268,6 +271,39 @@ void CutRuns(unsigned seed, PairScene* scene) {
       if (random.Index(3) == 0) continue;
       scene->runs.push_back(runs.front());
       runs.erase(runs.begin());
+    }
+  }
+}
+
+void ShareBodies(unsigned seed, PairScene* scene) {
+  Random random(seed);
+  const auto bodies = static_cast<std::int32_t>(scene->bodies.size());
+  for (LaneRun& run : scene->runs) {
+    PairBlock& block = scene->blocks[run.block];
+    if (run.lanes < 2 || random.Index(3) == 0) continue;
+    // a body of no lane of the run, and how many lanes have it on one side or the other
+    std::vector<char> named(scene->bodies.size(), 0);
+    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+      named[block.a[lane]] = named[block.b[lane]] = 1;
+    }
+    const auto hub = static_cast<std::int32_t>(
+        std::find(named.begin() + 1, named.begin() + bodies, 0) - named.begin());
+    if (hub == bodies) continue;
+    const int sharers = 2 + random.Index(run.lanes - 1);
+    for (int lane = run.first; lane < run.first + sharers; ++lane) {
+      const bool second = block.form != PairForm::kSingle && random.Index(2) == 0;
+      (second ? block.b : block.a)[lane] = static_cast<std::int32_t>(scene->bodies.size());
+      scene->copies.push_back({hub, ShareOfBody(sharers)});
+      scene->bodies.push_back({});
+    }
+    run.copies = block.copies = true;
+  }
+  for (PairBlock& block : scene->blocks) {
+    if (!block.copies) continue;
+    block.d_ratios = static_cast<std::uint32_t>(scene->d_ratios.size());
+    for (int i = 0; i < block.row_count; ++i) {
+      Line& ratio = scene->d_ratios.emplace_back();
+      for (float& of_lane : ratio.lane) of_lane = random.Uniform(1, 16);
     }
   }
 }

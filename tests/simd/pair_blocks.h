@@ -44,7 +44,9 @@ struct PairScene {
   std::vector<PairBlock> blocks;
   std::vector<LaneRun> runs;  ///< blocks as they are, or cut by CutRuns()
   std::vector<Line> data, x;
-  std::vector<BodyLane> bodies;
+  std::vector<BodyLane> bodies;  ///< and what there is of copies behind them
+  std::vector<BodyCopy> copies;  ///< see ShareBodies()
+  std::vector<Line> d_ratios;
   std::vector<BlockError> errors;
   int sweep = 0;
   bool hold_lifted = false;
@@ -73,6 +75,9 @@ PairScene RandomScene(const SceneSpec& spec);
 /// Cuts blocks into runs, in an order of its own, and lets lanes of different runs share bodies.
 /// @pre it is a RandomScene() and no blocks are alike
 void CutRuns(unsigned seed, PairScene* scene);
+
+/// Lets lanes of some runs see copies of bodies that they share.
+void ShareBodies(unsigned seed, PairScene* scene);
 
 /// Contact points of a pair: a row that pushes for each, then the friction of each.
 struct ManifoldSpec {

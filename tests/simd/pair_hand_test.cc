@@ -77,6 +77,54 @@ TEST_P(PairRowsOf, OneContactCarriesAUnitWeightInOneSweep) {
   ExpectMove(&scene, 1, 0);
 }
 
+/// Four lanes that push one ball of unit mass along x; each sees a quarter of it, so that G is 2.
+PairScene SharedBall() {
+  PairScene scene = ZeroScene({.blocks = {{PairForm::kSingle, {kNormal}, 4}}});
+  const RowView view = scene.View(0, 0);
+  SetLine(&view.g[0], 2);
+  SetLine(view.step, 0.25f);
+  for (int lane = 0; lane < 4; ++lane) {
+    scene.blocks[0].a[lane] = static_cast<int>(scene.bodies.size());
+    scene.copies.push_back({1, ShareOfBody(4)});
+    scene.bodies.push_back({});
+  }
+  scene.blocks[0].copies = scene.runs[0].copies = true;
+  scene.d_ratios.resize(1);
+  SetLine(&scene.d_ratios[0], 4);
+  return scene;
+}
+
+// Each stops its quarter, all of them the ball.
+TEST_P(PairRowsOf, LanesThatShareABodyMoveItTogether) {
+  PairScene scene = SharedBall();
+  scene.bodies[1].u[0] = -8;
+  scene.Run(kernels().sweep);
+  for (int lane = 0; lane < 4; ++lane) EXPECT_EQ(scene.X(0, 0, lane), 2) << lane;
+  EXPECT_EQ(scene.bodies[1].u[0], 0);
+}
+
+// What is asked for by one alone is a quarter done in a sweep.
+TEST_P(PairRowsOf, OneOfTheLanesThatShareABodyMovesItByItsShare) {
+  PairScene scene = SharedBall();
+  scene.View(0, 0).target->lane[2] = 8;
+  scene.Run(kernels().sweep);
+  EXPECT_EQ(scene.X(0, 0, 2), 2);
+  EXPECT_EQ(scene.bodies[1].u[0], 2);
+  // as the whole ball has it, d = 1: an impulse of 1 may give way by 1
+  scene.X(0, 0, 1) = 1;
+  scene.Run(kernels().measure);
+  EXPECT_EQ(scene.errors[0].max.lane[2], 6);
+  EXPECT_EQ(scene.errors[0].energy.lane[2], 36);
+  EXPECT_EQ(scene.errors[0].max.lane[1], 1);
+}
+
+TEST_P(PairRowsOf, SharedBodiesStartFromAllImpulses) {
+  PairScene scene = SharedBall();
+  for (int lane = 0; lane < 4; ++lane) scene.X(0, 0, lane) = static_cast<float>(lane);
+  scene.Run(kernels().start);
+  EXPECT_EQ(scene.bodies[1].u[0], 6);
+}
+
 TEST_P(PairRowsOf, AContactDoesNotPull) {
   PairScene scene = Ball({kNormal}, {1});
   Move(1, 1, &scene);

@@ -33,6 +33,7 @@ using test::RandomScene;
 using test::RandomSpec;
 using test::SameBits;
 using test::SceneSpec;
+using test::ShareBodies;
 
 constexpr PairForm kForms[] = {PairForm::kJoint, PairForm::kContact, PairForm::kSingle};
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -187,6 +188,34 @@ TEST_P(PairKernelsOf, RunsThatShareBlocksAndBodiesGiveTheBitsOfTheReference) {
     CutRuns(seed, &scene);
     ExpectBitsOfTheReference(kernels(), scene);
     if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(PairKernelsOf, CopiesOfSharedBodiesGiveTheBitsOfTheReference) {
+  std::size_t copies = 0;
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    SceneSpec spec = RandomSpec(seed);
+    spec.bodies = 3 * kLanes;
+    PairScene scene = RandomScene(spec);
+    if (seed % 2 == 0) CutRuns(seed, &scene);
+    ShareBodies(seed, &scene);
+    copies += scene.copies.size();
+    ExpectBitsOfTheReference(kernels(), scene);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(copies, 1000u);
+}
+
+TEST_P(PairKernelsOf, CopiesAreZeroBetweenPasses) {
+  PairScene scene = RandomScene({.blocks = {{PairForm::kContact, Manifold({})}}});
+  ShareBodies(1, &scene);
+  ASSERT_FALSE(scene.copies.empty());
+  for (const Step& step : kSteps) {
+    scene.Run(kernels().*step.kernel);
+    for (std::size_t i = scene.bodies.size() - scene.copies.size(); i < scene.bodies.size(); ++i) {
+      for (const float u : scene.bodies[i].u) EXPECT_EQ(u, 0) << step.name;
+    }
   }
 }
 

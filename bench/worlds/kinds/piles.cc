@@ -102,7 +102,7 @@ void DrawPileOfAll(Draft* draft) {
 
 void DrawJointedHub(Draft* draft) {
   draft->Ground();
-  const int spokes = draft->Count(3, 50);
+  const int spokes = draft->CountOfHub(3, 50);
   const bool held = draft->Chance(0.3);
   const btScalar radius = draft->Draw(0.05, 0.15), mass = draft->DrawRatio(0.1, 3);
   const btScalar hub = std::max(radius * btScalar(spokes) / 3, btScalar(0.4));
@@ -124,7 +124,7 @@ void DrawJointedHub(Draft* draft) {
 
 void DrawTouchedHub(Draft* draft) {
   draft->Ground();
-  const int bodies = draft->Count(4, 50);
+  const int bodies = draft->CountOfHub(4, 50);
   const int across = static_cast<int>(std::ceil(std::sqrt(bodies)));
   const btScalar half = draft->Draw(0.1, 0.25), pitch = half * draft->Draw(2.1, 3);
   const btScalar side = pitch * btScalar(across) / 2 + half, mass = draft->DrawRatio(0.3, 5);

@@ -132,6 +132,9 @@ simd::PairWork BlockFrame::WorkOn(const Group& group, int first_block, int block
           .data = blocks_.data.data(),
           .x = blocks_.x.data(),
           .bodies = blocks_.bodies.data(),
+          .copies = plan_.copies().data(),
+          .first_copy = plan_.first_copy(),
+          .d_ratios = blocks_.d_ratios.data(),
           .errors = errors_.data()};
 }
 
@@ -245,11 +248,10 @@ PackResult BlockFrame::Pack(const ContactProblem& problem, const Impulses& impul
 }
 
 void BlockFrame::Start(Crew* crew) {
-  InParts(static_cast<int>(plan_.body_of_slot().size()), kSlotsOfUnit, crew,
-          [&](int first, int count) {
-            std::memset(static_cast<void*>(blocks_.bodies.data() + first), 0,
-                        count * sizeof(simd::BodyLane));
-          });
+  InParts(static_cast<int>(plan_.slots()), kSlotsOfUnit, crew, [&](int first, int count) {
+    std::memset(static_cast<void*>(blocks_.bodies.data() + first), 0,
+                count * sizeof(simd::BodyLane));
+  });
   Pass pass(this, kernels_->start);
   crew->Run(&pass);
 }

@@ -79,13 +79,14 @@ void Clamp(RowBound bound, const Line* b, const Line* parent, Line* x) {
 /// be outside by a unit of the large one.
 double InsideOwnBounds(double x, const Row& row) { return std::min(std::max(x, row.lo), row.hi); }
 
-void Put(const WhitenedBody& body, int lane, simd::BodyLines* lines) {
+/// @p scale: of R
+void Put(const WhitenedBody& body, double scale, int lane, simd::BodyLines* lines) {
   for (int k = 0; k < 3; ++k) {
-    lines->linear[k].lane[lane] = body.linear[k];
+    lines->linear[k].lane[lane] = scale * body.linear[k];
     lines->velocity[k].lane[lane] = body.free.linear[k];
     lines->velocity[3 + k].lane[lane] = body.free.angular[k];
   }
-  for (int k = 0; k < 9; ++k) lines->angular[k].lane[lane] = body.angular.data()[k];
+  for (int k = 0; k < 9; ++k) lines->angular[k].lane[lane] = scale * body.angular.data()[k];
 }
 
 std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
@@ -167,12 +168,16 @@ class OneBlock {
       const Pair& pair = *pairs_[lane];
       rows_[lane] = packer_.plan.rows_of(pair).data();
       Prefetch(&packer_.problem.rows[rows_[lane][0]], sizeof(Row));
-      Put(pair.a != kWorld ? packer_.bodies[pair.a] : no_body, lane, &a_);
-      if (block_.form != PairForm::kSingle) Put(packer_.bodies[pair.b], lane, &b_);
+      const auto put = [&](int body, simd::BodyLines* lines) {
+        Put(body != kWorld ? packer_.bodies[body] : no_body,
+            packer_.ScaleOf(block_, lane, pair, body), lane, lines);
+      };
+      put(pair.a, &a_);
+      if (block_.form != PairForm::kSingle) put(pair.b, &b_);
     }
     for (int lane = block_.lanes; lane < kLanes; ++lane) {
-      Put(no_body, lane, &a_);
-      Put(no_body, lane, &b_);
+      Put(no_body, 1, lane, &a_);
+      Put(no_body, 1, lane, &b_);
     }
     if (block_.form != PairForm::kContact) return;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -310,7 +315,8 @@ void BlockPacker::Reserve(BlockData* blocks) const {
   Grow(plan.x_lines(), &blocks->x);
   if (!problem.manifolds.empty())
     Grow(2 * static_cast<size_t>(plan.x_lines()), &blocks->directions);
-  Grow(plan.body_of_slot().size(), &blocks->bodies);
+  Grow(plan.slots(), &blocks->bodies);
+  Grow(plan.d_ratio_lines(), &blocks->d_ratios);
 }
 
 PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulses,
@@ -320,8 +326,49 @@ PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulse
     if (result != PackResult::kDone) return result;
     if (locked) ApplyLocks(*this, block, blocks);
     couple(plan.blocks()[block], blocks->data.data() + plan.blocks()[block].data);
+    if (plan.blocks()[block].copies) FindRatios(plan.blocks()[block], blocks);
   }
   return PackResult::kDone;
+}
+
+/// Where copies add to d what whole bodies do not have.
+void BlockPacker::FindRatios(const simd::PairBlock& block, BlockData* blocks) const {
+  const Line* line = &blocks->data[block.data];
+  // of the squares of G, by side and part: what is too much
+  Line extra[4];
+  const bool contact = block.form == PairForm::kContact;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto extra_of = [&](int slot) {
+      const simd::BodyCopy* const copy = plan.copy_at(slot);
+      return copy != nullptr ? 1 - copy->share * copy->share : 0.0f;
+    };
+    const float a = extra_of(block.a[lane]), b = extra_of(block.b[lane]);
+    const float c_a = contact ? line[0].lane[lane] : 0, c_b = contact ? line[1].lane[lane] : 0;
+    extra[0].lane[lane] = contact ? a * c_a * c_a + b * c_b * c_b : a;
+    extra[1].lane[lane] = a;
+    extra[2].lane[lane] = b;
+    extra[3].lane[lane] = b;
+  }
+  line += simd::PairLines(block.form);
+  for (int i = 0; i < block.row_count; ++i) {
+    const RowShape& row = block.rows[i];
+    const int numbers = simd::JacobianLines(block.form);
+    Line sum = {};
+    for (int k = 0; k < numbers; ++k) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        sum.lane[lane] += extra[k / 3].lane[lane] * line[k].lane[lane] * line[k].lane[lane];
+      }
+    }
+    const Line& step = line[numbers + 1];
+    const Line* const relaxation = row.relaxed ? &line[numbers + (row.soft ? 3 : 2)] : nullptr;
+    Line& ratio = blocks->d_ratios[block.d_ratios + i];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      // 1 / d, and so extra / d
+      const float inv_d = step.lane[lane] / (relaxation != nullptr ? relaxation->lane[lane] : 1);
+      ratio.lane[lane] = 1 / (1 - sum.lane[lane] * inv_d);
+    }
+    line += simd::RowLines(block.form, row);
+  }
 }
 
 PackResult BlockPacker::PackBlock(int block, const Impulses& impulses, BlockData* blocks) const {

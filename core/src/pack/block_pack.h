@@ -20,6 +20,7 @@ struct BlockData {
   Array<simd::Line> x;           ///< impulses
   Array<simd::Line> directions;  ///< of friction, where manifolds are; see manifold_pack
   Array<simd::BodyLane> bodies;  ///< u, by slot of the plan
+  Array<simd::Line> d_ratios;    ///< constant; see simd::PairWork
 };
 
 /// What became of rows that were to be packed.
@@ -54,6 +55,14 @@ struct BlockPacker {
     static constexpr simd::ContactBody kNobody{};
     return body == kWorld ? &kNobody : &contact_bodies[body];
   }
+  /// What R of a body is to be multiplied by where a lane sees a copy of it, else 1.
+  float ScaleOf(const simd::PairBlock& block, int lane, const Pair& pair, int body) const {
+    if (!block.copies || body == kWorld) return 1;
+    const simd::BodyCopy* copy = nullptr;
+    if (body == pair.a) copy = plan.copy_at(block.a[lane]);
+    if (body == pair.b) copy = plan.copy_at(block.b[lane]);
+    return copy != nullptr ? 1 / copy->share : 1;
+  }
 
   /// Makes room.
   void Reserve(BlockData* blocks) const;
@@ -70,6 +79,30 @@ struct BlockPacker {
  private:
   PackResult PackBlock(int block, const Impulses& impulses, BlockData* blocks) const;
   void WriteRows(int block, const BlockData& blocks, const Impulses& impulses) const;
+  void FindRatios(const simd::PairBlock& block, BlockData* blocks) const;
+};
+
+/// The bodies of a block as joints and contacts see them, copies among them.
+class SeenBodies {
+ public:
+  SeenBodies(const BlockPacker& packer, int block)
+      : packer_(packer), block_(packer.plan.blocks()[block]) {}
+  const simd::ContactBody* Of(int lane, const Pair& pair, int body) {
+    const simd::ContactBody* const whole = packer_.contact_body(body);
+    const float scale = packer_.ScaleOf(block_, lane, pair, body);
+    if (scale == 1) return whole;
+    simd::ContactBody& copy = copies_[count_++];
+    copy = *whole;
+    for (float& number : copy.linear) number *= scale;
+    for (float& number : copy.angular) number *= scale;
+    return &copy;
+  }
+
+ private:
+  const BlockPacker& packer_;
+  const simd::PairBlock& block_;
+  int count_ = 0;
+  simd::ContactBody copies_[2 * simd::kLanes];
 };
 
 }  // namespace cairn

@@ -25,8 +25,10 @@ void Copy(const Plan& plan, int island, const Lines& x_from, const Bodies& bodie
     for (int k = 0; k < block.row_count; ++k) {
       (*x)[block.x + k].lane[lane] = x_from[block.x + k].lane[lane];
     }
-    (*bodies)[block.a[lane]] = bodies_from[block.a[lane]];
-    if (block.b[lane] != 0) (*bodies)[block.b[lane]] = bodies_from[block.b[lane]];
+    for (const int seen : {block.a[lane], block.b[lane]}) {
+      const int slot = plan.own_slot(seen);
+      if (slot != 0) (*bodies)[slot] = bodies_from[slot];
+    }
   }
 }
 

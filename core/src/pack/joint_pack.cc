@@ -46,13 +46,15 @@ PackResult PackJoints(const BlockPacker& packer, int index, const Impulses& star
                          .rows = block.rows,
                          .row_count = block.row_count,
                          .lanes = WholeQuads(block.lanes)};
+  SeenBodies bodies(packer, index);
   for (int lane = 0; lane < lanes.lanes; ++lane) {
     // unused lanes do what the first one does
     const int used = lane < block.lanes ? lane : 0;
-    const Joint& joint = JointOf(packer, index, used);
-    lanes.a[lane] = packer.contact_body(joint.body_a);
-    lanes.b[lane] = packer.contact_body(joint.body_b);
-    lanes.second_moves[lane] = packer.plan.pair(index, used).a != joint.body_a;
+    const Pair& pair = packer.plan.pair(index, used);
+    const Joint& joint = packer.problem.joints[pair.index];
+    lanes.a[lane] = bodies.Of(used, pair, joint.body_a);
+    lanes.b[lane] = bodies.Of(used, pair, joint.body_b);
+    lanes.second_moves[lane] = pair.a != joint.body_a;
     lanes.opposite[lane] = joint.opposite;
     lanes.damping[lane] = joint.damping;
     lanes.row[lane] = NumbersOf(packer.problem.joint_rows[joint.first_row]);

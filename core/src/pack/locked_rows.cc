@@ -63,12 +63,13 @@ class LockedLane {
     const Sizes sizes = SizesOf(row, body);
     if (linear == nullptr && sizes.linear2 > 0) return {false, 0};
     double g[6] = {};
+    const double scale = packer_.ScaleOf(block_, lane_, pair_, body);
     for (int k = 0; k < 3; ++k) {
-      if (linear != nullptr) g[k] = linear[k].lane[lane_];
-      g[3 + k] = angular[k].lane[lane_];
+      if (linear != nullptr) g[k] = linear[k].lane[lane_] / scale;
+      g[3 + k] = angular[k].lane[lane_] / scale;
     }
-    const LockedSide side =
-        LookAtLocked(packer_.problem.bodies[body], sizes.linear2, sizes.angular2, g);
+    LockedSide side = LookAtLocked(packer_.problem.bodies[body], sizes.linear2, sizes.angular2, g);
+    side.extra *= scale * scale;
     for (int k = 0; side.alone && k < 3; ++k) {
       if (linear != nullptr) linear[k].lane[lane_] = 0;
       angular[k].lane[lane_] = 0;

@@ -94,13 +94,14 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
                            .bounce_speed = law.bounce_speed,
                            .spin_before_torques = law.host.spin_before_torques,
                            .lanes = WholeQuads(block.lanes)};
+  SeenBodies bodies(packer, index);
   for (int lane = 0; lane < lanes.lanes; ++lane) {
     // unused lanes do what the first one does
     const int used = lane < block.lanes ? lane : 0;
     const Pair& pair = packer.plan.pair(index, used);
     const Manifold& manifold = packer.problem.manifolds[pair.index];
-    lanes.a[lane] = packer.contact_body(manifold.body_a);
-    lanes.b[lane] = packer.contact_body(manifold.body_b);
+    lanes.a[lane] = bodies.Of(used, pair, manifold.body_a);
+    lanes.b[lane] = bodies.Of(used, pair, manifold.body_b);
     lanes.second_moves[lane] = pair.a != manifold.body_a;
     lanes.point[lane] = NumbersOf(packer.problem.points[manifold.first_point]);
     lanes.start[lane] = NumbersOf(std::as_const(start.points[manifold.first_point]));

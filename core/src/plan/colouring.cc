@@ -55,14 +55,22 @@ int Colouring::Choose(const Pair& pair, int kind) {
   std::uint32_t taken = pair.a == kWorld ? 0 : masks_[pair.a].used[kind];
   if (pair.b != kWorld) taken |= masks_[pair.b].used[kind];
   const int lowest = std::countr_one(taken);
-  return lowest < Colour::kOfKind ? 1 + kind * Colour::kOfKind + lowest : Colour::kOverflow;
+  return lowest < Colour::kOfKind ? Colour::First(kind) + lowest : Colour::Overflow(kind);
 }
 
 void Colouring::Occupy(const Pair& pair, int kind, int colour) {
-  if (colour == Colour::kOverflow) return;
-  const std::uint32_t bit = std::uint32_t{1} << (colour - 1 - kind * Colour::kOfKind);
+  if (Colour::IsOverflow(colour)) return;
+  const std::uint32_t bit = std::uint32_t{1} << Colour::PlaceOf(colour);
   if (pair.a != kWorld) masks_[pair.a].used[kind] |= bit;
   if (pair.b != kWorld) masks_[pair.b].used[kind] |= bit;
+}
+
+bool Colouring::IsOfHub(const Pair& pair, int colours) const {
+  const int kind = KindOf(pair);
+  const auto is_hub = [&](int body) {
+    return body != kWorld && std::popcount(masks_[body].used[kind]) >= colours;
+  };
+  return is_hub(pair.a) || is_hub(pair.b);
 }
 
 void Colouring::Recognise(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew) {
@@ -84,7 +92,7 @@ void Colouring::RecogniseSome(std::span<const Pair> pairs, int first, int count)
   const int last = first > 0 ? FindKnown(NameOf(pairs[first - 1]), first - 1) : -1;
   size_t expected = last >= 0 ? static_cast<size_t>(last) + 1 : first;
   for (int i = first; i < first + count; ++i) {
-    next_[i] = {NameOf(pairs[i]), Colour::kOverflow, false};
+    next_[i] = {NameOf(pairs[i]), -1, false};
     before_[i] = FindKnown(next_[i].name, expected);
     if (before_[i] >= 0) expected = static_cast<size_t>(before_[i]) + 1;
   }
@@ -119,9 +127,8 @@ void Colouring::KeepKnown(std::span<const Pair> pairs) {
     expected = static_cast<size_t>(known) + 1;
     // unless two bodies swapped names, or can no longer move
     const int kind = KindOf(pairs[i]), colour = known_[known].colour;
-    const bool of_kind = colour != Colour::kOverflow && (colour - 1) / Colour::kOfKind == kind;
-    if (!of_kind) continue;
-    const std::uint32_t bit = std::uint32_t{1} << ((colour - 1) % Colour::kOfKind);
+    if (Colour::IsOverflow(colour) || Colour::KindOf(colour) != kind) continue;
+    const std::uint32_t bit = std::uint32_t{1} << Colour::PlaceOf(colour);
     const auto taken = [&](int body) { return body != kWorld && masks_[body].used[kind] & bit; };
     if (taken(pairs[i].a) || taken(pairs[i].b)) continue;
     colours_[i] = colour;

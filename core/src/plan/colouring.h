@@ -13,13 +13,20 @@ namespace cairn {
 
 /// When in a sweep a pair is relaxed. Pairs of one colour share no movable body.
 struct Colour {
-  /// Pairs that no colour was left for: made disjoint block by block, before all colours.
-  static constexpr int kOverflow = 0;
-  /// Colours of each kind of pair: joints, joints with the world, contacts, contacts with the
-  /// world. Kinds follow each other in a sweep: what cannot give way has the last word.
+  /// Of each kind of pair: joints, joints with the world, contacts, contacts with the world. Kinds
+  /// follow each other in a sweep: what cannot give way has the last word.
   static constexpr int kOfKind = 32;
   static constexpr int kKinds = 4;
-  static constexpr int kCount = 1 + kKinds * kOfKind;
+  /// Each kind begins with its overflow, pairs that have no colour: they may share bodies.
+  static constexpr int kPlaces = 1 + kOfKind;
+  static constexpr int kCount = kKinds * kPlaces;
+
+  static constexpr int Overflow(int kind) { return kind * kPlaces; }
+  static constexpr int First(int kind) { return Overflow(kind) + 1; }
+  static constexpr int KindOf(int colour) { return colour / kPlaces; }
+  static constexpr bool IsOverflow(int colour) { return colour % kPlaces == 0; }
+  /// Of a colour among those of its kind, from 0 on. -1: overflow.
+  static constexpr int PlaceOf(int colour) { return colour % kPlaces - 1; }
 };
 
 /// Gives every pair of bodies a colour that it keeps as long as it lives: colours change where
@@ -41,6 +48,8 @@ class Colouring {
   void Prepare();
 
   std::span<const int> colours() const { return colours_; }
+  /// Whether one of its bodies has pairs of so many colours of this kind, or more.
+  bool IsOfHub(const Pair& pair, int colours) const;
   /// Where each pair was in the list of the last call, -1 for those that have just begun; no place
   /// twice, even where bodies share a name.
   std::span<const int> before() const { return before_; }

@@ -18,6 +18,10 @@ constexpr int kOpenRuns = 8;
 
 bool IsLarge(const PlannedIsland& island) { return island.rows > Group::kSharedRows; }
 
+/// Bodies with pairs of so many colours of a kind are hubs: what has no colour waits for no lanes,
+/// but is done by one thread. Pairs with them have one of the first colours or none.
+constexpr int kHubOfSmall = 16, kHubOfLarge = 32, kColoursOfHub = 8;
+
 /// As many one thread has at a time while a plan is made.
 constexpr int kPairsOfPart = 512, kRunsOfPart = 64;
 
@@ -130,15 +134,23 @@ void Plan::FindGroups() {
   }
 }
 
+int Plan::ColourOfPair(int i) const {
+  const int colour = colouring_.colours()[i];
+  if (Colour::PlaceOf(colour) < kColoursOfHub) return colour;
+  const bool large = IsLarge(islands_[island_of_pair_[i]]);
+  const bool of_hub = colouring_.IsOfHub(list_.pairs[i], large ? kHubOfLarge : kHubOfSmall);
+  return of_hub ? Colour::Overflow(Colour::KindOf(colour)) : colour;
+}
+
 void Plan::SortPairs(Crew* crew) {
   const int pairs = static_cast<int>(list_.pairs.size());
   const std::span<PairKey> keys = pair_order_.Begin(pairs);
   InParts(pairs, kPairsOfPart, crew, [&](int first, int count) {
     for (int i = first; i < first + count; ++i) {
-      const int colour = colouring_.colours()[i];
+      const int colour = ColourOfPair(i);
       keys[i] = {.group = islands_[island_of_pair_[i]].group,
                  .colour = colour,
-                 .shape = colour == Colour::kOverflow ? 0 : KindOf(list_.pairs[i])};
+                 .shape = Colour::IsOverflow(colour) ? 0 : KindOf(list_.pairs[i])};
     }
   });
   pair_order_.End(colouring_.before(),
@@ -190,7 +202,7 @@ void Plan::FindAlike(const Group& group) {
     const simd::LaneRun& next = runs_[i + 1];
     const simd::PairBlock &block = blocks_[run.block], &other = blocks_[next.block];
     const int colour = colour_of_run_[i];
-    run.like_next = colour != Colour::kOverflow && colour == colour_of_run_[i + 1] &&
+    run.like_next = !Colour::IsOverflow(colour) && colour == colour_of_run_[i + 1] &&
                     block.form == other.form && block.rows == other.rows && whole(run) &&
                     whole(next);
   }
@@ -211,28 +223,45 @@ void Plan::AddBlock(int pair) {
 
 void Plan::FillLanes(const Draft& draft, const simd::LaneRun& run) {
   simd::PairBlock& block = blocks_[run.block];
+  int copy = draft.first_copy;
   for (int i = 0; i < draft.lanes; ++i) {
     const int pair = draft.pairs[i], lane = run.first + i;
     const Pair& of = list_.pairs[pair];
     pair_of_lane_[run.block * kLanes + lane] = pair;
     island_of_lane_[run.block * kLanes + lane] = island_of_pair_[pair];
-    block.a[lane] = of.a == kWorld ? draft.unmoved_slot + i : slot_of_body_[of.a];
-    block.b[lane] = of.b == kWorld ? 0 : slot_of_body_[of.b];
+    block.a[lane] = of.a == kWorld ? draft.unmoved_slot + i : SlotIn(draft, of.a, &copy);
+    block.b[lane] = of.b == kWorld ? 0 : SlotIn(draft, of.b, &copy);
   }
+}
+
+/// Lanes that a body is in. @pre it is none of those that are not there
+int Plan::SharersOf(const Draft& draft, int body) const {
+  const auto has = [&](int i) { return list_.pairs[i].a == body || list_.pairs[i].b == body; };
+  return static_cast<int>(std::count_if(draft.pairs, draft.pairs + draft.lanes, has));
+}
+
+int Plan::CopiesOf(const Draft& draft) const {
+  int copies = 0;
+  for (const int i : std::span(draft.pairs, draft.lanes)) {
+    for (const int body : {list_.pairs[i].a, list_.pairs[i].b}) {
+      if (body != kWorld && SharersOf(draft, body) > 1) ++copies;
+    }
+  }
+  return copies;
+}
+
+/// The slot of a body, or that of the next copy of a run.
+int Plan::SlotIn(const Draft& draft, int body, int* copy) {
+  const int sharers = draft.copies > 0 ? SharersOf(draft, body) : 1;
+  if (sharers == 1) return slot_of_body_[body];
+  copies_[*copy] = {slot_of_body_[body], simd::ShareOfBody(sharers)};
+  return first_copy() + (*copy)++;
 }
 
 Plan::Draft& Plan::AddDraft(int pair) {
   Draft& draft = drafts_.emplace_back();
-  draft.colour = colouring_.colours()[pair];
+  draft.colour = keys_[pair].colour;
   return draft;
-}
-
-bool Plan::Shares(const Draft& draft, const Pair& pair) const {
-  return std::any_of(draft.pairs, draft.pairs + draft.lanes, [&](int i) {
-    const Pair& of = list_.pairs[i];
-    return of.a == pair.a || of.b == pair.a ||
-           (pair.b != kWorld && (of.a == pair.b || of.b == pair.b));
-  });
 }
 
 Plan::Draft* Plan::FindOpenDraft(int index, size_t first_draft) {
@@ -241,13 +270,22 @@ Plan::Draft* Plan::FindOpenDraft(int index, size_t first_draft) {
   for (size_t at = drafts_.size() - most; at < drafts_.size(); ++at) {
     Draft& draft = drafts_[at];
     const bool alike = KindOf(list_.pairs[draft.pairs[0]]) == KindOf(pair);
-    if (alike && draft.lanes < kLanes && !Shares(draft, pair)) return &draft;
+    if (alike && draft.lanes < kLanes) return &draft;
   }
   return nullptr;
 }
 
-void Plan::DraftOverflow() {
+/// Those of one kind and group, island by island, each as if it were alone. Returns where they end.
+size_t Plan::DraftOverflow(size_t i) {
+  overflow_.clear();
+  for (const PairKey key = keys_[order_[i]]; i < order_.size() && keys_[order_[i]] == key; ++i) {
+    overflow_.push_back(order_[i]);
+  }
+  std::sort(overflow_.begin(), overflow_.end(), [this](int a, int b) {
+    return std::pair(island_of_pair_[a], a) < std::pair(island_of_pair_[b], b);
+  });
   int island = -1;
+  const size_t first = drafts_.size();
   size_t first_draft = 0;
   for (const int pair : overflow_) {
     if (std::exchange(island, island_of_pair_[pair]) != island) first_draft = drafts_.size();
@@ -255,6 +293,8 @@ void Plan::DraftOverflow() {
     Draft& draft = open != nullptr ? *open : AddDraft(pair);
     draft.pairs[draft.lanes++] = pair;
   }
+  for (Draft& draft : std::span(drafts_).subspan(first)) draft.copies = CopiesOf(draft);
+  return i;
 }
 
 /// Those of a group, whose pairs begin at @p i in their order, behind the others. Returns where
@@ -263,22 +303,17 @@ size_t Plan::DraftRuns(int group, size_t i) {
   const auto of_group = [&](size_t at) {
     return at < order_.size() && keys_[order_[at]].group == group;
   };
-  const size_t begin = i;
-  while (of_group(i) && keys_[order_[i]].colour == Colour::kOverflow) ++i;
-  // island by island, each as if it were alone
-  overflow_.assign(order_.begin() + begin, order_.begin() + i);
-  std::sort(overflow_.begin(), overflow_.end(), [this](int a, int b) {
-    return std::pair(island_of_pair_[a], a) < std::pair(island_of_pair_[b], b);
-  });
-  DraftOverflow();
-
   // a run ends with its colour, its shape, or full
-  PairKey key{};  // that of no pair with a colour
-  for (; of_group(i); ++i) {
+  PairKey key{.group = -1, .colour = 0, .shape = 0};
+  while (of_group(i)) {
     const PairKey& next = keys_[order_[i]];
+    if (Colour::IsOverflow(next.colour)) {
+      i = DraftOverflow(i);
+      continue;
+    }
     const bool same = key == next && drafts_.back().lanes < kLanes;
     Draft& draft = same ? drafts_.back() : AddDraft(order_[i]);
-    draft.pairs[draft.lanes++] = order_[i];
+    draft.pairs[draft.lanes++] = order_[i++];
     key = next;
   }
   return i;
@@ -309,18 +344,26 @@ void Plan::DraftAllRuns() {
 void Plan::PlaceRuns(const Group& group) {
   const bool small = group.rows <= Group::kSharedRows;
   open_blocks_.assign(static_cast<size_t>(shapes_.size()) * kForms, -1);
-  int unmoved_slot = group.first_slot;
+  int unmoved_slot = group.first_slot, copies = static_cast<int>(copies_.size());
   for (Draft& draft : std::span(drafts_).subspan(group.first_run, group.runs)) {
     const int block = FindRoom(draft, small);
     runs_.push_back({.block = block,
                      .first = static_cast<std::int16_t>(blocks_[block].lanes),
                      .lanes = static_cast<std::int16_t>(draft.lanes),
-                     .like_next = false});
+                     .like_next = false,
+                     .copies = draft.copies > 0});
     colour_of_run_.push_back(draft.colour);
     blocks_[block].lanes += draft.lanes;
     draft.unmoved_slot = unmoved_slot;
     unmoved_slot += draft.lanes;
+    if (draft.copies > 0 && !std::exchange(blocks_[block].copies, true)) {
+      blocks_[block].d_ratios = static_cast<std::uint32_t>(d_ratio_lines_);
+      d_ratio_lines_ += blocks_[block].row_count;
+    }
+    draft.first_copy = copies;
+    copies += draft.copies;
   }
+  copies_.resize(copies);
 }
 
 void Plan::FillBlocks(Crew* crew) {
@@ -329,7 +372,8 @@ void Plan::FillBlocks(Crew* crew) {
   pair_of_lane_.clear();
   island_of_lane_.clear();
   colour_of_run_.clear();
-  data_lines_ = x_lines_ = 0;
+  copies_.clear();
+  data_lines_ = x_lines_ = d_ratio_lines_ = 0;
   for (Group& group : groups_) {
     group.first_block = static_cast<int>(blocks_.size());
     group.first_x = x_lines_;

@@ -110,25 +110,45 @@ class Plan {
   std::span<const int> body_of_slot() const { return body_of_slot_; }
   /// Slot of each body, 0 for one without rows.
   std::span<const int> slot_of_body() const { return slot_of_body_; }
+  /// Slots behind those of bodies: what the lanes of a run see of a body that they share.
+  std::span<const simd::BodyCopy> copies() const { return copies_; }
+  int first_copy() const { return static_cast<int>(body_of_slot_.size()); }
+  /// Those of bodies and of copies.
+  size_t slots() const { return body_of_slot_.size() + copies_.size(); }
+  /// The copy that a slot is of, nullptr for one of a body.
+  const simd::BodyCopy* copy_at(int slot) const {
+    return slot < first_copy() ? nullptr : &copies_[slot - first_copy()];
+  }
+  /// The slot of the body itself.
+  int own_slot(int slot) const {
+    const simd::BodyCopy* const copy = copy_at(slot);
+    return copy != nullptr ? copy->slot : slot;
+  }
   int data_lines() const { return data_lines_; }
   int x_lines() const { return x_lines_; }
+  /// Rows of blocks with copies.
+  int d_ratio_lines() const { return d_ratio_lines_; }
 
  private:
   void FindIslands(int bodies);
   void FindGroups();
   void SortPairs(Crew* crew);
-  /// Pairs that are relaxed at a time: alike, of one colour, and sharing no body.
+  int ColourOfPair(int pair) const;
+  /// Pairs that are relaxed at a time: alike, and of one colour, which share no body, or of none.
   struct Draft {
     int colour = 0, lanes = 0;
     int unmoved_slot = 0;  ///< of the first, where nothing can move for them
+    int first_copy = 0, copies = 0;
     int pairs[simd::kLanes];
   };
   void DraftAllRuns();
   size_t DraftRuns(int group, size_t first);
-  void DraftOverflow();
+  size_t DraftOverflow(size_t first);
   Draft& AddDraft(int pair);
   Draft* FindOpenDraft(int pair, size_t first_draft);
-  bool Shares(const Draft& draft, const Pair& pair) const;
+  int SharersOf(const Draft& draft, int body) const;
+  int CopiesOf(const Draft& draft) const;
+  int SlotIn(const Draft& draft, int body, int* copy);
   void FillBlocks(Crew* crew);
   void PlaceRuns(const Group& group);
   int FindRoom(const Draft& draft, bool small);
@@ -169,13 +189,14 @@ class Plan {
   Array<int> lanes_of_islands_, lanes_begin_;  ///< of those that share a group
   Array<int> colour_of_run_;
   Array<Draft> drafts_;     ///< of all runs
-  Array<int> overflow_;     ///< pairs of a group that have no colour
+  Array<int> overflow_;     ///< pairs of a group and kind that have no colour
   Array<int> open_blocks_;  ///< of small islands: the last with room for more, by KindOf(), or -1
   Array<int> slot_of_body_, body_of_slot_;
+  Array<simd::BodyCopy> copies_;
   Array<Unit> units_;
   Array<Stage> stages_;
   Array<Phase> phases_;
-  int data_lines_ = 0, x_lines_ = 0;
+  int data_lines_ = 0, x_lines_ = 0, d_ratio_lines_ = 0;
 };
 
 }  // namespace cairn

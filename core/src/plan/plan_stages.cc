@@ -62,7 +62,7 @@ void Plan::StagesOf(int g) {
     int next = b + 1;
     while (next < end && ColourOf(group, next) == ColourOf(group, b)) ++next;
     const int rows = RowsOf(b, next);
-    const bool overflow = ColourOf(group, b) == Colour::kOverflow;
+    const bool overflow = Colour::IsOverflow(ColourOf(group, b));
     if (!overflow && rows >= kTinyColour) {
       AddUnits(b, next, g);
       tail = false;

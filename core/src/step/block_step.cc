@@ -246,8 +246,8 @@ void BlockStep<T>::MultiplyTransposed(const Array<LineT>& y, Array<T>* v) {
                                     of_pair);
     }
     const auto add = [&](int slot, int lane, const LineT* lines) {
-      const int node = system_->node_of_slot(slot);
-      for (int k = 0; k < 6 && node >= 0; ++k) (*v)[6 * node + k] += lines[k].lane[lane];
+      const auto [node, share] = system_->SeenAt(*plan_, slot);
+      for (int k = 0; k < 6 && node >= 0; ++k) (*v)[6 * node + k] += share * lines[k].lane[lane];
     };
     for (int l = run.first; l < run.first + run.lanes; ++l) {
       add(block.a[l], l, of_pair);
@@ -263,8 +263,8 @@ void BlockStep<T>::Multiply(const Array<T>& v, Array<LineT>* y) {
     const simd::PairActiveSet<T> set = ActiveSetOf(b);
     const simd::PairBlock& block = set.block;
     const auto get = [&](int slot, int lane, LineT* lines) {
-      const int node = system_->node_of_slot(slot);
-      for (int k = 0; k < 6; ++k) lines[k].lane[lane] = node < 0 ? T{0} : v[6 * node + k];
+      const auto [node, share] = system_->SeenAt(*plan_, slot);
+      for (int k = 0; k < 6; ++k) lines[k].lane[lane] = node < 0 ? T{0} : share * v[6 * node + k];
     };
     for (int l = 0; l < block.lanes; ++l) {
       get(block.a[l], l, of_pair);
@@ -423,7 +423,8 @@ void BlockStep<T>::Write() {
   for (int b = 0; b < group_->blocks; ++b) {
     const simd::PairActiveSet<T> set = ActiveSetOf(b);
     const simd::PairBlock& block = set.block;
-    const auto write = [&](int slot) {
+    const auto write = [&](int seen) {
+      const int slot = plan_->own_slot(seen);
       const int node = system_->node_of_slot(slot);
       if (node < 0) return;
       float* const u = blocks_->bodies[slot].u;

@@ -124,8 +124,8 @@ void BlockSystem<T>::CountLanes(const Plan& plan, const Group& group) {
 }
 
 template <class T>
-NodePair BlockSystem<T>::PairOf(const simd::PairBlock& block, int lane) const {
-  const int a = node_of_slot(block.a[lane]), b = node_of_slot(block.b[lane]);
+NodePair BlockSystem<T>::PairOf(const Plan& plan, const simd::PairBlock& block, int lane) const {
+  const int a = SeenAt(plan, block.a[lane]).node, b = SeenAt(plan, block.b[lane]).node;
   return a < b ? NodePair(a, b) : NodePair(b, a);
 }
 
@@ -135,7 +135,7 @@ void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
   pairs_.clear();
   for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
     if (block.form == simd::PairForm::kSingle) continue;
-    for (int lane = 0; lane < block.lanes; ++lane) pairs_.push_back(PairOf(block, lane));
+    for (int lane = 0; lane < block.lanes; ++lane) pairs_.push_back(PairOf(plan, block, lane));
   }
   std::sort(pairs_.begin(), pairs_.end());
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
@@ -155,7 +155,7 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
   for (const simd::PairBlock& block : plan.blocks().subspan(group.first_block, group.blocks)) {
     const bool joins = block.form != simd::PairForm::kSingle;
     for (int lane = 0; lane < block.lanes && joins; ++lane) {
-      const NodePair pair = PairOf(block, lane);
+      const NodePair pair = PairOf(plan, block, lane);
       const auto known = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
       if (known == pairs_.end() || *known != pair) return false;
       pair_of_lane_[at + static_cast<size_t>(lane)] = static_cast<int>(known - pairs_.begin());
@@ -186,7 +186,7 @@ bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const Block
     }
     const auto first_lane = static_cast<size_t>(run.block - group.first_block) * kLanes;
     for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
-      AddLane(block, lane, pair_of_lane_[first_lane + static_cast<size_t>(lane)], gram);
+      AddLane(plan, block, lane, pair_of_lane_[first_lane + static_cast<size_t>(lane)], gram);
     }
   }
   const SpanClock clock(crew != nullptr ? crew->recorder() : nullptr, 0, {SpanKind::kFactorise});
@@ -194,27 +194,29 @@ bool BlockSystem<T>::Factorise(const Plan& plan, const Group& group, const Block
 }
 
 template <class T>
-void BlockSystem<T>::AddLane(const simd::PairBlock& block, int lane, int pair,
+void BlockSystem<T>::AddLane(const Plan& plan, const simd::PairBlock& block, int lane, int pair,
                              const simd::LineOf<T>* gram) {
-  const auto add_triangle = [&](int node, const simd::LineOf<T>* lines) {
-    if (node < 0) return;
-    T* const to = diagonal(node);
+  const auto add_triangle = [&](const Seen& seen, const simd::LineOf<T>* lines) {
+    if (seen.node < 0) return;
+    const T share = seen.share * seen.share;
+    T* const to = diagonal(seen.node);
     for (int c = 0; c < 6; ++c) {
-      for (int r = c; r < 6; ++r) to[6 * c + r] += (lines++)->lane[lane];
+      for (int r = c; r < 6; ++r) to[6 * c + r] += share * (lines++)->lane[lane];
     }
   };
-  const int a = node_of_slot(block.a[lane]);
+  const Seen a = SeenAt(plan, block.a[lane]);
   add_triangle(a, gram);
   if (block.form == simd::PairForm::kSingle) return;
-  const int b = node_of_slot(block.b[lane]);
+  const Seen b = SeenAt(plan, block.b[lane]);
   const simd::LineOf<T>* const square = gram + simd::kTriangleLines;
   add_triangle(b, square + simd::kSquareLines);
 
   // rows of a and columns of b, or turned round
   T* const to = upper(pair);
-  const int row = a < b ? 1 : 6, column = a < b ? 6 : 1;
+  const int row = a.node < b.node ? 1 : 6, column = a.node < b.node ? 6 : 1;
+  const T share = a.share * b.share;
   for (int c = 0; c < 6; ++c) {
-    for (int r = 0; r < 6; ++r) to[column * c + row * r] += square[6 * c + r].lane[lane];
+    for (int r = 0; r < 6; ++r) to[column * c + row * r] += share * square[6 * c + r].lane[lane];
   }
 }
 

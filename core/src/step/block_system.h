@@ -71,9 +71,20 @@ class BlockSystem : public detail::Placed {
 
   /// Bodies of the group that can move: each is a node.
   int nodes() const { return static_cast<int>(bodies_now_.size()); }
-  /// The node of a slot, -1 for the world.
+  /// The node of a slot of a body, -1 for the world.
   int node_of_slot(int slot) const {
     return slot == 0 ? -1 : node_of_slot_[static_cast<size_t>(slot - first_slot_)];
+  }
+  /// What a lane sees: a node, and how much of it; see simd::BodyCopy.
+  struct Seen {
+    int node;
+    T share;
+  };
+  static constexpr T kWhole = 1;
+  Seen SeenAt(const Plan& plan, int slot) const {
+    const simd::BodyCopy* const copy = plan.copy_at(slot);
+    if (copy == nullptr) return {node_of_slot(slot), kWhole};
+    return {node_of_slot(copy->slot), static_cast<T>(copy->share)};
   }
 
   /// Assembles and factorises. @p weights: one line for each x line of the group; rows of weight 0
@@ -95,7 +106,7 @@ class BlockSystem : public detail::Placed {
   void CountLanes(const Plan& plan, const Group& group);
   bool FindLanes(const Plan& plan, const Group& group);
   void FindPairs(const Plan& plan, const Group& group);
-  NodePair PairOf(const simd::PairBlock& block, int lane) const;
+  NodePair PairOf(const Plan& plan, const simd::PairBlock& block, int lane) const;
   void ShareOut();
   T* diagonal(int node) {
     const Place& place = places_[node];
@@ -105,7 +116,8 @@ class BlockSystem : public detail::Placed {
     const Place& place = places_of_pairs_[pair];
     return place.in_lanes ? lanes_.upper(place.index) : fronts_.upper(place.index);
   }
-  void AddLane(const simd::PairBlock& block, int lane, int pair, const simd::LineOf<T>* gram);
+  void AddLane(const Plan& plan, const simd::PairBlock& block, int lane, int pair,
+               const simd::LineOf<T>* gram);
 
   const simd::PairProducts<T>& products_;
   /// Trees and chains of bodies are in lanes, other components in fronts.

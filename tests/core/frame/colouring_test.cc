@@ -36,9 +36,6 @@ std::vector<Body> Named(int count) {
   return bodies;
 }
 
-/// First colour of a kind; see Colour.
-constexpr int FirstOf(int kind) { return 1 + kind * Colour::kOfKind; }
-
 std::vector<int> ColoursOf(Colouring* colouring, const std::vector<Body>& bodies,
                            const Pairs& pairs) {
   Crew alone(1);
@@ -53,9 +50,9 @@ void ExpectApart(const Pairs& pairs, const std::vector<int>& colours) {
   ASSERT_EQ(pairs.size(), colours.size());
   std::set<std::pair<int, int>> seen;
   for (size_t i = 0; i < pairs.size(); ++i) {
-    if (colours[i] == Colour::kOverflow) continue;
+    if (Colour::IsOverflow(colours[i])) continue;
     const int kind = (pairs[i].contact ? 2 : 0) + (pairs[i].b == kWorld ? 1 : 0);
-    EXPECT_EQ((colours[i] - 1) / Colour::kOfKind, kind);
+    EXPECT_EQ(Colour::KindOf(colours[i]), kind);
     for (int body : {pairs[i].a, pairs[i].b}) {
       if (body == kWorld) continue;
       EXPECT_TRUE(seen.emplace(colours[i], body).second) << "colour " << colours[i];
@@ -94,7 +91,7 @@ class Crowd {
 TEST(Colours, OfAChainAreTwo) {
   Colouring colouring;
   const Pairs chain = {Contact(0, 1), Contact(1, 2), Contact(2, 3), Contact(3, 4)};
-  const int first = FirstOf(2);
+  const int first = Colour::First(2);
   EXPECT_EQ(ColoursOf(&colouring, Named(5), chain),
             (std::vector<int>{first, first + 1, first, first + 1}));
 }
@@ -102,8 +99,9 @@ TEST(Colours, OfAChainAreTwo) {
 TEST(Colours, OfEachKindAreTheirOwnAndInTheOrderOfASweep) {
   Colouring colouring;
   const Pairs pairs = {Contact(0, kWorld), Contact(0, 1), Joint(0, kWorld), Joint(0, 1)};
-  EXPECT_EQ(ColoursOf(&colouring, Named(2), pairs),
-            (std::vector<int>{FirstOf(3), FirstOf(2), FirstOf(1), FirstOf(0)}));
+  EXPECT_EQ(
+      ColoursOf(&colouring, Named(2), pairs),
+      (std::vector<int>{Colour::First(3), Colour::First(2), Colour::First(1), Colour::First(0)}));
 }
 
 TEST(Colours, AreApartAndKeptWhileAPairLives) {
@@ -121,7 +119,7 @@ TEST(Colours, AreApartAndKeptWhileAPairLives) {
       for (size_t i = 0; i < pairs.size(); ++i) {
         const std::tuple name(pairs[i].a, pairs[i].b, pairs[i].contact);
         now[name] = colours[i];
-        EXPECT_NE(colours[i], Colour::kOverflow);
+        EXPECT_FALSE(Colour::IsOverflow(colours[i]));
         if (before.count(name) == 0) continue;
         EXPECT_EQ(before[name], colours[i]) << "frame " << frame;
         ++kept;
@@ -145,10 +143,11 @@ TEST(Colours, DependOnTheHistoryAlone) {
 TEST(Colours, AreForgottenWhenAPairEnds) {
   const std::vector<Body> bodies = Named(3);
   Colouring colouring;
-  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(0, 1), Contact(1, 2)}).back(), FirstOf(2) + 1);
-  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(1, 2)}).back(), FirstOf(2) + 1);
+  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(0, 1), Contact(1, 2)}).back(),
+            Colour::First(2) + 1);
+  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(1, 2)}).back(), Colour::First(2) + 1);
   EXPECT_EQ(ColoursOf(&colouring, bodies, {}).size(), 0u);
-  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(1, 2)}).back(), FirstOf(2));
+  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(1, 2)}).back(), Colour::First(2));
 }
 
 TEST(Colours, BeyondThirtyTwoAreTheOverflowUntilOneIsFree) {
@@ -158,13 +157,27 @@ TEST(Colours, BeyondThirtyTwoAreTheOverflowUntilOneIsFree) {
   Colouring colouring;
   std::vector<int> colours = ColoursOf(&colouring, bodies, star);
   for (int i = 0; i < 40; ++i) {
-    EXPECT_EQ(colours[i], i < 32 ? FirstOf(2) + i : Colour::kOverflow);
+    EXPECT_EQ(colours[i], i < 32 ? Colour::First(2) + i : Colour::Overflow(2));
   }
   star.erase(star.begin() + 5);
   colours = ColoursOf(&colouring, bodies, star);
   ExpectApart(star, colours);
-  EXPECT_EQ(std::count(colours.begin(), colours.end(), static_cast<int>(Colour::kOverflow)), 7);
-  EXPECT_EQ(colours[31], FirstOf(2) + 5) << "the first that waited";
+  EXPECT_EQ(std::ranges::count(colours, Colour::Overflow(2)), 7);
+  EXPECT_EQ(colours[31], Colour::First(2) + 5) << "the first that waited";
+}
+
+TEST(Colours, OfManyMakeABodyAHub) {
+  const std::vector<Body> bodies = Named(41);
+  Pairs star;
+  for (int i = 1; i <= 20; ++i) star.push_back(Contact(i, 0));
+  star.push_back(Contact(1, 2));
+  star.push_back(Joint(1, 0));
+  Colouring colouring;
+  (void)ColoursOf(&colouring, bodies, star);
+  EXPECT_TRUE(colouring.IsOfHub(star[0], 20));
+  EXPECT_FALSE(colouring.IsOfHub(star[0], 21));
+  EXPECT_FALSE(colouring.IsOfHub(star[20], 3)) << "its bodies have two each";
+  EXPECT_FALSE(colouring.IsOfHub(star[21], 2)) << "of joints there is one";
 }
 
 TEST(Colours, FollowTheNamesOfBodiesWhenTheyAreRenumbered) {
@@ -210,7 +223,7 @@ TEST(Colours, OfBodiesWithoutNamesGoByTheirPlace) {
   const std::vector<Body> bodies(3);
   Colouring colouring;
   (void)ColoursOf(&colouring, bodies, {Contact(0, 1), Contact(1, 2)});
-  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(2, 1)}).back(), FirstOf(2) + 1);
+  EXPECT_EQ(ColoursOf(&colouring, bodies, {Contact(2, 1)}).back(), Colour::First(2) + 1);
 }
 
 TEST(Colouring, SaysWhereEachPairWasBefore) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -57,13 +58,14 @@ void ExpectSlotsOfTheirBodies(const Planned& p) {
       }
       const Pair& pair = p.plan.pair(b, lane);
       EXPECT_NE(block.a[lane], 0) << "the first slot is read by all and written by none";
-      EXPECT_EQ(p.plan.body_of_slot()[block.a[lane]], pair.a);
-      EXPECT_EQ(p.plan.body_of_slot()[block.b[lane]], pair.b);
+      const int a = p.plan.own_slot(block.a[lane]), b = p.plan.own_slot(block.b[lane]);
+      EXPECT_EQ(p.plan.body_of_slot()[a], pair.a);
+      EXPECT_EQ(p.plan.body_of_slot()[b], pair.b);
       if (pair.a != kWorld) {
-        EXPECT_EQ(p.plan.slot_of_body()[pair.a], block.a[lane]);
+        EXPECT_EQ(p.plan.slot_of_body()[pair.a], a);
       }
       if (pair.b != kWorld) {
-        EXPECT_EQ(p.plan.slot_of_body()[pair.b], block.b[lane]);
+        EXPECT_EQ(p.plan.slot_of_body()[pair.b], b);
       }
     }
   }
@@ -81,6 +83,42 @@ void ExpectLanesOfARunApart(const Planned& p) {
       }
     }
   }
+}
+
+/// Where lanes of a run share a body all of them see copies of it, of no more than its mass, and
+/// each copy is seen once.
+void ExpectCopiesOfWhatIsShared(const Planned& p) {
+  std::set<int> seen;
+  for (const LaneRun& run : p.plan.runs()) {
+    std::map<int, std::vector<int>> slots;  // by body
+    const PairBlock& block = p.plan.blocks()[run.block];
+    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
+      const Pair& pair = p.plan.pair(run.block, lane);
+      slots[pair.a].push_back(block.a[lane]);
+      slots[pair.b].push_back(block.b[lane]);
+    }
+    slots.erase(kWorld);
+    bool any = false;
+    for (const auto& [body, of_body] : slots) {
+      if (of_body.size() == 1) {
+        EXPECT_EQ(of_body[0], p.plan.slot_of_body()[body]);
+        continue;
+      }
+      any = true;
+      double mass = 0;
+      for (const int slot : of_body) {
+        const simd::BodyCopy* const copy = p.plan.copy_at(slot);
+        ASSERT_NE(copy, nullptr);
+        EXPECT_TRUE(seen.insert(slot).second);
+        EXPECT_EQ(copy->share, p.plan.copy_at(of_body[0])->share);
+        mass += static_cast<double>(copy->share) * copy->share;
+      }
+      EXPECT_LE(mass, 1);
+    }
+    EXPECT_EQ(run.copies, any);
+    EXPECT_TRUE(block.copies || !any);
+  }
+  EXPECT_EQ(seen.size(), p.plan.copies().size());
 }
 
 /// Runs of a block fill its lanes one after the other, in registers that leave those before alone.
@@ -124,7 +162,8 @@ void ExpectGroupsApart(const Planned& p) {
       for (int lane = 0; lane < of.lanes; ++lane) {
         EXPECT_EQ(p.plan.islands()[p.plan.island_of(b, lane)].group, g);
         for (int slot : {of.a[lane], of.b[lane]}) {
-          const bool inside = slot >= group.first_slot && slot < group.first_slot + group.slots;
+          const int own = p.plan.own_slot(slot);
+          const bool inside = own >= group.first_slot && own < group.first_slot + group.slots;
           EXPECT_TRUE(slot == 0 || inside);
         }
       }
@@ -207,6 +246,7 @@ void ExpectSound(const Planned& p) {
   ExpectEveryRowInOneLane(p);
   ExpectSlotsOfTheirBodies(p);
   ExpectLanesOfARunApart(p);
+  ExpectCopiesOfWhatIsShared(p);
   ExpectRunsToFillBlocks(p);
   ExpectRunsThatAreAlikeApart(p);
   ExpectGroupsApart(p);
@@ -231,14 +271,30 @@ TEST(Plan, FindsRunsThatAreAlike) {
   EXPECT_EQ(alike(tower), 0);  // of each kind and colour it has one run at the most
 }
 
-// A plate on twenty boxes: each contact with it has a colour of its own.
+// A plate on twenty boxes: eight contacts with it have a colour of their own, twelve none.
 TEST(Plan, LetsColoursOfSmallIslandsShareBlocks) {
   const Planned small(test::Plate(20)), large(test::Plate(200));
   ExpectSound(small);
   ExpectSound(large);
-  EXPECT_GE(small.plan.runs().size(), 20u);
-  EXPECT_LT(small.plan.blocks().size(), 10u);
+  EXPECT_GE(small.plan.runs().size(), 9u);
+  EXPECT_LT(small.plan.blocks().size(), 6u);
   EXPECT_EQ(large.plan.runs().size(), large.plan.blocks().size());
+}
+
+// Pairs with the plate, and as many with the world, in full lanes but for a few.
+TEST(Plan, LetsLanesShareAHub) {
+  for (const int boxes : {50, 200, 1000}) {
+    const Planned p(test::Plate(boxes));
+    ExpectSound(p);
+    EXPECT_LE(p.plan.runs().size(), 2 * (boxes / kLanes + 1) + 8u) << boxes;
+    EXPECT_GE(p.plan.copies().size(), static_cast<size_t>(boxes - 8));
+  }
+}
+
+// A large island whose bodies have many neighbours, but no hub: no thread waits for another.
+TEST(Plan, SharesNoBodyOfALargeHeap) {
+  const Planned p(test::Wall(60, 60));
+  EXPECT_TRUE(p.plan.copies().empty());
 }
 
 TEST(Plan, IsSoundForRandomScenesThatChange) {
@@ -266,13 +322,16 @@ bool SameBlock(const PairBlock& a, const PairBlock& b) {
 
 bool SameRun(const LaneRun& a, const LaneRun& b) {
   return a.block == b.block && a.first == b.first && a.lanes == b.lanes &&
-         a.like_next == b.like_next;
+         a.like_next == b.like_next && a.copies == b.copies;
 }
 
 void ExpectSame(const Plan& a, const Plan& b) {
   ASSERT_TRUE(std::ranges::equal(a.blocks(), b.blocks(), SameBlock));
   ASSERT_TRUE(std::ranges::equal(a.runs(), b.runs(), SameRun));
   EXPECT_TRUE(std::ranges::equal(a.body_of_slot(), b.body_of_slot()));
+  EXPECT_TRUE(std::ranges::equal(a.copies(), b.copies(), [](const auto& of_a, const auto& of_b) {
+    return of_a.slot == of_b.slot && of_a.share == of_b.share;
+  }));
   EXPECT_TRUE(std::ranges::equal(a.island_of_body(), b.island_of_body()));
   EXPECT_EQ(a.data_lines(), b.data_lines());
   EXPECT_EQ(a.stages().size(), b.stages().size());
