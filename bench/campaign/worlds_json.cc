@@ -116,6 +116,7 @@ void CheckContext(const Json& json, const bench::CampaignOptions& options,
     expect(json.value(option, false) == ours,
            fmt::format("only its worlds, or only these, are of --{}", option));
   };
+  expect(json.value("unit", 1.0) == options.trial.world.unit, "its worlds have another --unit");
   expect_alike("locks", options.trial.world.locks);
   expect_alike("heavy", options.trial.world.heavy);
   expect_alike("crowded", options.trial.world.crowded);
@@ -157,11 +158,15 @@ std::string WorldsToJson(const bench::CampaignOptions& options,
                          std::span<const bench::WorldResult> results, const std::string& command) {
   Json worlds = Json::array();
   for (const bench::WorldResult& result : results) worlds.push_back(ToJson(result, options));
-  const Json json = {
-      {"context", ToJson(DescribeContext(command))}, {"seconds", options.trial.seconds},
-      {"scale", options.trial.world.scale},          {"locks", options.trial.world.locks},
-      {"heavy", options.trial.world.heavy},          {"crowded", options.trial.world.crowded},
-      {"audit_every", options.trial.audit_every},    {"worlds", worlds}};
+  const Json json = {{"context", ToJson(DescribeContext(command))},
+                     {"seconds", options.trial.seconds},
+                     {"scale", options.trial.world.scale},
+                     {"locks", options.trial.world.locks},
+                     {"heavy", options.trial.world.heavy},
+                     {"crowded", options.trial.world.crowded},
+                     {"unit", options.trial.world.unit},
+                     {"audit_every", options.trial.audit_every},
+                     {"worlds", worlds}};
   return json.dump(1) + "\n";
 }
 

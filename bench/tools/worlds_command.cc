@@ -25,7 +25,7 @@ namespace {
 /// What was typed behind the options of `cairn worlds`.
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
-  std::string seconds = "5", scale = "1", jobs, json, shrink, beside, doubts = "0";
+  std::string seconds = "5", scale = "1", unit = "1", jobs, json, shrink, beside, doubts = "0";
   bool list = false, report = false, audit = false, bits = false, locks = false, heavy = false,
        crowded = false;
   OutputWords output;
@@ -116,6 +116,8 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.trial.world.locks = words.locks;
   options.trial.world.heavy = words.heavy;
   options.trial.world.crowded = words.crowded;
+  options.trial.world.unit =
+      ParseNumber("--unit", words.unit, 1e-3, 1e4, "units of length in a metre");
   const int cores = std::max(1u, std::thread::hardware_concurrency());
   options.jobs = words.jobs.empty()
                      ? cores
@@ -197,6 +199,10 @@ Command AddWorldsCommand(CLI::App* app) {
                    "Bodies with locked axes, as games in a plane have them; no momentum then");
   worlds->add_flag("--heavy", words->heavy,
                    "Loads on ropes, chains and bridges are 10 to 10,000 times as heavy");
+  add("--unit", &words->unit,
+      "Units of length in a metre, 100 where worlds count in centimetres; without events; default "
+      "1",
+      "X");
   worlds->add_flag("--crowded", words->crowded,
                    "Hubs touch or hold up to 500 bodies instead of 50");
   worlds->add_flag("--list", words->list, "Names the kinds of worlds");

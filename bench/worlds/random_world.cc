@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "worlds/draft.h"
+#include "worlds/units.h"
 
 namespace cairn::bench {
 namespace {
@@ -68,6 +69,12 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
   crowded_ = seed.crowded;
   locks_ = seed.locks;
   if (locks_) LockAxes(Random(Stream(seed.seed, kLockStream)), &world_);
+  unit_ = seed.unit;
+  if (unit_ != 1) {
+    // what happens later is in metres
+    ChangeUnits(unit_, &world_);
+    return;
+  }
   events_ = std::move(draft.events());
   std::stable_sort(events_.begin(), events_.end(),
                    [](const Event& a, const Event& b) { return a.time < b.time; });
@@ -104,6 +111,7 @@ std::string RandomWorld::Describe() const {
   if (locks_) text << ", locked axes";
   if (heavy_) text << ", heavy loads";
   if (crowded_) text << ", crowded hubs";
+  if (unit_ != 1) text << ", " << unit_ << " units of length in a metre";
   if (!events_.empty()) text << " at";
   for (const Event& event : events_) text << ' ' << event.time;
   if (!events_.empty()) text << " s";

@@ -16,6 +16,7 @@ struct WorldSeed {
   bool locks = false;    ///< Bodies have locked axes; all else is as without.
   bool heavy = false;    ///< Loads of ropes and bridges are 10 to 10,000 times as heavy, likewise.
   bool crowded = false;  ///< Ten times as many bodies may touch or hang on a hub.
+  double unit = 1;       ///< Units of length in a metre, see ChangeUnits(); without events.
 };
 
 /// The kind that a seed is of.
@@ -52,6 +53,7 @@ class RandomWorld {
   size_t next_event_ = 0;
   double time_ = 0;
   bool locks_ = false, heavy_ = false, crowded_ = false;
+  double unit_ = 1;
 };
 
 }  // namespace cairn::bench

@@ -48,7 +48,7 @@ class Run {
     const World& world = random_.world();
     trial_.bodies = static_cast<int>(world.dynamic_bodies().size());
     trial_.joints = static_cast<int>(world.joints().size());
-    trial_.energy = TotalEnergy(world);
+    trial_.energy = TotalEnergy(world) / (options_.world.unit * options_.world.unit);
     trial_.hash = StateHash(world);
     if (momentum_ && !InParts()) {
       trial_.linear_drift = momentum_->linear();
@@ -69,11 +69,12 @@ class Run {
     random_.Step();
     ++trial_.frames;
     const World& world = random_.world();
-    const double speed = LargestSpeed(world), gap = LargestJointGap(world);
+    const double unit = options_.world.unit;
+    const double speed = LargestSpeed(world) / unit, gap = LargestJointGap(world) / unit;
     RaiseTo(speed, &trial_.fastest);
     if (frame >= frames - frames / 4) RaiseTo(speed, &trial_.late_fastest);
     if (!std::isnan(gap)) RaiseTo(gap, &trial_.gap);
-    RaiseTo(MaxPenetration(world), &trial_.penetration);
+    RaiseTo(MaxPenetration(world) / unit, &trial_.penetration);
     if (!(speed <= Trial::kTooFast) && trial_.wild_frame < 0) trial_.wild_frame = frame;
     hopeless_ = !(speed <= Trial::kHopeless);
     if (hopeless_) trial_.late_fastest = trial_.fastest;

@@ -14,6 +14,7 @@
 #include "cairn/detail/threads.h"
 #include "cairn/solver.h"
 #include "fast_group.h"
+#include "gravity.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -67,10 +68,17 @@ bool SweepsAsBullet(const Settings& settings) {
          (settings.method == Method::kPgsSm && (settings.k_sm == 0 || !settings.steps));
 }
 
+/// What the user says, or what gravity does.
+double UnitsFor(const Settings& user, std::span<btCollisionObject* const> bodies) {
+  const double set = user.tuning.units_per_metre;
+  return set != 0 ? set : UnitsPerMetre(bodies);
+}
+
 /// Iteration settings of one group: what the user asked for, and what Bullet's info says.
 Settings ForGroup(const Settings& user, const Options& options, const btContactSolverInfo& info,
-                  int max_override) {
+                  int max_override, double units_per_metre) {
   Settings settings = user;
+  settings.tuning.units_per_metre = units_per_metre;
   settings.geometric_stiffness = false;  // FastGroup sees to it
   if (ByIterations(user, options)) {
     settings.max_sweeps = std::max({0, info.m_numIterations, max_override});
@@ -80,7 +88,8 @@ Settings ForGroup(const Settings& user, const Options& options, const btContactS
       if (!SweepsAsBullet(user)) settings.tolerance = kGoodEnough;
     }
     settings.tuning.min_progress =
-        std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold));
+        std::sqrt(std::max<double>(0, info.m_leastSquaresResidualThreshold)) /
+        settings.tuning.units_per_metre;
   }
   return settings;
 }
@@ -230,7 +239,8 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   if (impl_->options.mode == Mode::kFast) {
     const Group group{{bodies, static_cast<size_t>(num_bodies)},
                       {manifolds, static_cast<size_t>(num_manifolds)},
-                      {constraints, static_cast<size_t>(num_constraints)}};
+                      {constraints, static_cast<size_t>(num_constraints)},
+                      UnitsFor(impl_->settings, {bodies, static_cast<size_t>(num_bodies)})};
     solved = SolveFast(group, info);
     impl_->fell_back = !solved;
   }
@@ -277,7 +287,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     Options options = impl_->options;
     options.geometric_stiffness = impl_->Stiffens();
     // what is swept in double precision is not rounded to floats before
-    if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0)) == Path::kReference)
+    if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0, 1)) == Path::kReference)
       options.contacts = ContactForm::kRows;
     fast.Read(group, info, LimitsOf(ByIterations(impl_->settings, impl_->options), group.joints),
               options, impl_->settings.substeps, &threads);
@@ -292,7 +302,8 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
   }
   const bool recording = impl_->BeginRecording(fast.problem(), fast.impulses());
   const nanoseconds built = impl_->Now();
-  Settings settings = ForGroup(impl_->settings, impl_->options, info, fast.most_sweeps());
+  Settings settings =
+      ForGroup(impl_->settings, impl_->options, info, fast.most_sweeps(), group.units_per_metre);
   impl_->SetTimeLeft(&settings.budget);
   impl_->solver.settings() = settings;
   impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
@@ -353,7 +364,8 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
         debug_drawer);
   }
   Settings settings =
-      ForGroup(impl_->settings, impl_->options, info, m_maxOverrideNumSolverIterations);
+      ForGroup(impl_->settings, impl_->options, info, m_maxOverrideNumSolverIterations,
+               UnitsFor(impl_->settings, {bodies, static_cast<size_t>(num_bodies)}));
   settings.substeps = 1;  // Bullet moves the bodies
   settings.relax = false;
   if (SweepsAsBullet(settings)) settings.tuning.lifted_friction = detail::LiftedFriction::kHold;

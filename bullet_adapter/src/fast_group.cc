@@ -25,7 +25,8 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
-  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0), &group_);
+  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0),
+                      group.units_per_metre, &group_);
   joint_builder_.Append(group.joints, info, limits, options.contacts);
 
   const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),

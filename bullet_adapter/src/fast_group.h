@@ -26,6 +26,7 @@ struct Group {
   std::span<btCollisionObject* const> bodies;
   std::span<btPersistentManifold* const> manifolds;
   JointSpan joints;
+  double units_per_metre = 1;  ///< See Tuning.
 };
 
 /// The rows of a group without Bullet's set-up, and its results without Bullet's finish.

@@ -28,23 +28,24 @@ float Dot(const Vector& a, const Vector& b) {
 }
 
 /// Without the half of a body that does not move: its lever reaches to the origin of the world.
-Products ProductsOf(const Row& a, const Row& b, const JointRows& joint) {
+/// @param lever  what the products of levers count, which are lengths
+Products ProductsOf(const Row& a, const Row& b, const JointRows& joint, float lever) {
   Products products;
   if (joint.a_moves) {
-    products.ab += Dot(a.linear_a, b.linear_a) + Dot(a.angular_a, b.angular_a);
-    products.aa += Dot(a.linear_a, a.linear_a) + Dot(a.angular_a, a.angular_a);
-    products.bb += Dot(b.linear_a, b.linear_a) + Dot(b.angular_a, b.angular_a);
+    products.ab += Dot(a.linear_a, b.linear_a) + lever * Dot(a.angular_a, b.angular_a);
+    products.aa += Dot(a.linear_a, a.linear_a) + lever * Dot(a.angular_a, a.angular_a);
+    products.bb += Dot(b.linear_a, b.linear_a) + lever * Dot(b.angular_a, b.angular_a);
   }
   if (joint.b_moves) {
-    products.ab += Dot(a.linear_b, b.linear_b) + Dot(a.angular_b, b.angular_b);
-    products.aa += Dot(a.linear_b, a.linear_b) + Dot(a.angular_b, a.angular_b);
-    products.bb += Dot(b.linear_b, b.linear_b) + Dot(b.angular_b, b.angular_b);
+    products.ab += Dot(a.linear_b, b.linear_b) + lever * Dot(a.angular_b, b.angular_b);
+    products.aa += Dot(a.linear_b, a.linear_b) + lever * Dot(a.angular_b, a.angular_b);
+    products.bb += Dot(b.linear_b, b.linear_b) + lever * Dot(b.angular_b, b.angular_b);
   }
   return products;
 }
 
 /// Likewise, with the three numbers of a vector side by side.
-Products ProductsOf(const JointRow& a, const JointRow& b, const JointRows& joint) {
+Products ProductsOf(const JointRow& a, const JointRow& b, const JointRows& joint, float lever) {
   // a row is four vectors, each with a number behind it that does not count
   using Four = Eigen::Array4f;
   static_assert(sizeof(JointRow) == 16 * sizeof(float));
@@ -54,18 +55,19 @@ Products ProductsOf(const JointRow& a, const JointRow& b, const JointRows& joint
   Four ab = Four::Zero(), aa = Four::Zero(), bb = Four::Zero();
   for (int k = joint.a_moves ? 0 : 2; k < (joint.b_moves ? 4 : 2); ++k) {
     const Four of_a = vector(a, k), of_b = vector(b, k);
-    ab += of_a * of_b;
-    aa += of_a * of_a;
-    bb += of_b * of_b;
+    const float share = k % 2 == 0 ? 1 : lever;
+    ab += share * (of_a * of_b);
+    aa += share * (of_a * of_a);
+    bb += share * (of_b * of_b);
   }
   const auto sum = [](const Four& four) { return four[0] + four[1] + four[2]; };
   return {sum(ab), sum(aa), sum(bb)};
 }
 
 template <class AnyRow>
-bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint) {
+bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint, float lever) {
   for (int i = 0; i < joint.rows; ++i) {
-    const auto [ab, aa, bb] = ProductsOf(a[i], b[i], joint);
+    const auto [ab, aa, bb] = ProductsOf(a[i], b[i], joint, lever);
     // rows that ask for nothing are alike
     const bool alike = (aa == 0 && bb == 0) || (ab > 0 && ab * ab >= kAlike * kAlike * aa * bb);
     if (!alike) return false;
@@ -76,12 +78,13 @@ bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint) {
 }  // namespace
 
 void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor,
-                        GroupProblem* group) {
+                        double units_per_metre, GroupProblem* group) {
   constexpr size_t kAhead = 8;
   if (!std::exchange(kept_, false)) Forget();
   std::swap(last_, *group);
   group->Clear();
   factor_ = factor;
+  lever_ = static_cast<float>(1 / (units_per_metre * units_per_metre));
   index_.Rewind();
   applied_.clear();
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -106,14 +109,14 @@ void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) 
   if (!same) return;
   if (joint.written_out) {
     const Row* const rows = &group->rows[joint.first_row];
-    if (!AllAlike(&last_.rows[last.first_row], rows, joint)) return;
+    if (!AllAlike(&last_.rows[last.first_row], rows, joint, lever_)) return;
     for (int i = 0; i < joint.rows; ++i) {
       group->impulses[joint.first_row + i] = factor_ * last_.impulses[last.first_row + i];
     }
     return;
   }
   const JointRow* const rows = &group->joint_rows[joint.first_row];
-  if (!AllAlike(&last_.joint_rows[last.first_row], rows, joint)) return;
+  if (!AllAlike(&last_.joint_rows[last.first_row], rows, joint, lever_)) return;
   for (int i = 0; i < joint.rows; ++i) {
     group->joint_impulses[joint.first_row + i] =
         static_cast<float>(factor_) * last_.joint_impulses[last.first_row + i];

@@ -20,8 +20,10 @@ class JointMemory {
  public:
   /// Begins a group; the applied impulses of the joints must be as the last group left them.
   /// @param factor  of the start, in [0, 1]; 0 starts cold.
+  /// @param units_per_metre  see Tuning: rows are as alike in metres
   /// @param group   has the last one, which is taken away; is left empty
-  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor, GroupProblem* group);
+  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor, double units_per_metre,
+             GroupProblem* group);
   /// Sets the start of the joint with that place in the group.
   void Start(int place, const JointRows& joint, GroupProblem* group);
   /// Remembers a solved group, once its impulses are written to the joints.
@@ -37,6 +39,7 @@ class JointMemory {
   };
 
   btScalar factor_ = 0;
+  float lever_ = 1;                ///< What products of levers count beside those of directions.
   std::vector<btScalar> applied_;  ///< of the present joints, by place
   std::vector<Entry> entries_;     ///< of the last group, in the order of its joints
   GroupProblem last_;

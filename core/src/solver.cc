@@ -293,7 +293,9 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   if (!report->ok()) return;
   tension.Learn(problem, impulses, settings, *report);
   const auto means = in_parts ? substeps.means() : std::span<const Velocity>();
-  quiet.Tell(problem, velocities, means, settings.tuning.quiet_speed, &threads, report);
+  const double quiet_speed = settings.tuning.quiet_speed;
+  quiet.Tell(problem, velocities, means, {UnitOf(settings) * quiet_speed, quiet_speed}, &threads,
+             report);
   const bool moves_on = !means.empty() && problem.motions.empty();
   TellCorrections(problem, moves_on ? means : velocities, &threads, report);
 }
@@ -323,7 +325,8 @@ void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& i
     report->stop = StopReason::kBrokeDown;
   };
   for (substeps.Begin(problem, impulses, settings.substeps); !substeps.done(); substeps.Advance()) {
-    const bool relaxes = settings.relax && substeps.HasErrors(settings.tolerance);
+    const bool relaxes =
+        settings.relax && substeps.HasErrors(UnitOf(settings) * settings.tolerance);
     const int left = substeps.left() * (relaxes ? 2 : 1);
     solve_part(left);
     if (relaxes && report->ok()) {

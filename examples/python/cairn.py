@@ -55,7 +55,7 @@ Solution = struct("Solution", *[(name, pointer) for name in
 Settings = struct("Settings", ("method", c_int), ("path", c_int), ("kGs", c_i32), ("kSm", c_i32),
                   ("steps", c_bool), ("relax", c_bool), ("maxSweeps", c_i32),
                   ("geometricStiffness", c_bool), ("substeps", c_i32),
-                  ("tolerance", c_double), ("quietSpeed", c_double),
+                  ("tolerance", c_double), ("quietSpeed", c_double), ("unitsPerMetre", c_double),
                   ("budgetKind", c_int), ("budget", c_i64), ("minSweeps", c_i32),
                   ("threads", c_i32), ("submit", pointer), ("context", pointer),
                   ("allocate", pointer), ("free", pointer), ("memoryContext", pointer))

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenes/facts.h"
@@ -187,6 +189,65 @@ TEST(Heavy, LoadsAreDrawnApartFromTheWorld) {
     }
   }
   EXPECT_GT(heavier, 20);
+}
+
+/// Where the bodies of a world are after some steps [m].
+std::vector<btVector3> PlacesAfter(int steps, const WorldSeed& seed) {
+  btSequentialImpulseConstraintSolver solver;
+  RandomWorld world(seed, &solver);
+  for (int i = 0; i < steps; ++i) world.Step();
+  std::vector<btVector3> places;
+  for (const btRigidBody* body : world.world().dynamic_bodies()) {
+    places.push_back(body->getCenterOfMassPosition() / static_cast<btScalar>(seed.unit));
+  }
+  return places;
+}
+
+// Joints, motors, springs, margins and gravity of all kinds: what one of them forgets is seen in
+// few steps. Where bodies rest on each other Bullet itself has speeds in metres: those from which
+// on friction goes the way of sliding.
+TEST(Units, AreCountedInByBulletAsInMetres) {
+  std::map<std::string_view, btScalar> least;
+  int apart = 0;
+  constexpr int kWorlds = 160;
+  for (std::uint64_t seed = 0; seed < kWorlds; ++seed) {
+    const std::vector<btVector3> in_metres = PlacesAfter(10, {.seed = seed, .unit = 1});
+    const std::vector<btVector3> places = PlacesAfter(10, {.seed = seed, .unit = 128});
+    ASSERT_EQ(places.size(), in_metres.size()) << seed;
+    btScalar furthest = 0;
+    for (size_t i = 0; i < places.size(); ++i) {
+      furthest = btMax(furthest, places[i].distance(in_metres[i]));
+    }
+    apart += furthest > btScalar(0.001) ? 1 : 0;
+    btScalar& of_kind = least.try_emplace(KindOf(seed).name, furthest).first->second;
+    of_kind = btMin(of_kind, furthest);
+  }
+  EXPECT_LT(apart, kWorlds / 5);
+  for (const auto& [kind, distance] : least) EXPECT_LT(distance, btScalar(0.001)) << kind;
+}
+
+// In centimetres Cairn took a third of its steps fewer, and gaps of joints were half as large
+// again.
+TEST(Units, DoNotChangeWhatCairnDoes) {
+  double steps = 0, steps_in_units = 0, ratio = 0;
+  int gaps = 0;
+  for (std::uint64_t seed = 0; seed < 160; ++seed) {
+    TrialOptions options;
+    options.world.seed = seed;
+    options.seconds = 0.6;
+    options.audit_every = 0;
+    const Trial in_metres = RunTrial(options, Cairn());
+    options.world.unit = 128;
+    const Trial in_units = RunTrial(options, Cairn());
+    steps += in_metres.steps_kept;
+    steps_in_units += in_units.steps_kept;
+    if (!(in_metres.gap > 1e-3 && in_units.gap > 1e-3)) continue;
+    ratio += std::log(in_units.gap / in_metres.gap);
+    ++gaps;
+  }
+  ASSERT_GT(gaps, 30);
+  EXPECT_NEAR(steps_in_units / steps, 1, 0.1);
+  EXPECT_NEAR(std::exp(ratio / gaps), 1, 0.1);
 }
 
 TEST(Rules, AreDrawnFromAllThatTheyMayBe) {

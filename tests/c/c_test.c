@@ -408,6 +408,7 @@ static void SaysForHowLongIslandsWereQuiet(void) {
   CHECK(island.quiet == 0 && fabs(island.speed - (3 - 9.81 / 60)) < 2e-3);
   CairnSettings settings = cairnDefaultSettings();
   CHECK(settings.quietSpeed == 0.05);
+  CHECK(settings.unitsPerMetre == 0);
   settings.quietSpeed = 5;
   CHECK(cairnSetSettings(solver, &settings) == cairnOk);
   CHECK(cairnSolve(solver, &scene.problem, &scene.solution, NULL) == cairnOk);

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "body_table.h"
 #include "conversions.h"
+#include "gravity.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -22,12 +22,6 @@ constexpr auto kSettles = btScalar(2);
 constexpr auto kSlop = btScalar(0.1);
 /// How much of the ERP of the world it then has.
 constexpr auto kErp = btScalar(0.75);
-
-/// How a world accelerates an object [m/s^2].
-btScalar GravityOf(const btCollisionObject* object) {
-  const btRigidBody* const rigid = btRigidBody::upcast(object);
-  return rigid != nullptr && Reacts(*rigid) ? rigid->getGravity().length() : btScalar(0);
-}
 
 /// Steps since the oldest point of a manifold was found.
 int StepsOf(const btPersistentManifold& manifold) {

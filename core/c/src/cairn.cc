@@ -193,6 +193,7 @@ CairnSettings cairnDefaultSettings(void) {
           .substeps = from.substeps,
           .tolerance = from.tolerance,
           .quietSpeed = from.tuning.quiet_speed,
+          .unitsPerMetre = from.tuning.units_per_metre,
           .budgetKind = cairnUnlimited,
           .budget = 0,
           .minSweeps = from.tuning.min_sweeps,

@@ -92,6 +92,7 @@ Settings ToSettings(const CairnSettings& from) {
   settings.substeps = from.substeps;
   settings.tolerance = from.tolerance;
   settings.tuning.quiet_speed = from.quietSpeed;
+  settings.tuning.units_per_metre = from.unitsPerMetre;
   settings.budget = ToBudget(from.budgetKind, from.budget);
   settings.tuning.min_sweeps = from.minSweeps;
   settings.threads = from.threads;

@@ -43,8 +43,7 @@ class Clock {
 /// Settings for experiments, measurements and comparison with other methods. Try another value on
 /// many worlds, not on one (docs/tuning.md).
 struct Tuning {
-  /// Also done when a whole sweep moved no row by more than this, [m/s] or [rad/s], >= 0. At 0 only
-  /// a sweep that changed nothing at all ends the iteration.
+  /// Also done when a whole sweep moved no row by more than this, [m/s] or [rad/s], >= 0.
   double min_progress = 0;
   /// Sweeps made even if the budget is spent before them: >= 0, or kByBudget. At 0 a budget that is
   /// too small for anything returns the warm start.
@@ -54,21 +53,22 @@ struct Tuning {
   /// Over-relaxation of Method::kPsor, above 0 and below 2; 1 is Gauss-Seidel. Other than 1, joints
   /// and manifolds are solved on Path::kReference.
   double omega = 1;
-  /// Proximal term of a subspace step on rows with bounds, relative to the diagonal of the row, in
-  /// [1e-8, 1]. Contacts of a face disagree by millimetres: smaller values fit that, larger ones
-  /// leave more of the slow error behind. The solver raises it on an island where a step failed,
-  /// and lowers it while steps are kept: down to 1/4 of this, with a budget to 1/32.
+  /// Proximal term of a subspace step on rows with bounds, relative to their diagonal, in [1e-8,
+  /// 1]. Small values fit what contacts of a face disagree by, large ones leave slow errors. Raised
+  /// where a step failed, lowered while steps are kept: to 1/4 of it, with a budget to 1/32.
   double proximal = 3e-3;
   /// Solves with the last factor of a step at most, in [1, 1000]. Those after the first refine it
   /// while no row leaves its bounds; see docs/solver.md before raising it.
   int refinements = 1;
   double quiet_speed = 0.05;  ///< Of IslandReport::quiet [m/s], [rad/s], >= 0.
+  /// Units of length in a metre, 100 in centimetres, for settings in [m/s]; 0: 1, in Bullet what
+  /// gravity says.
+  double units_per_metre = 0;
   detail::LiftedFriction lifted_friction = detail::LiftedFriction::kRelease;
   /// A frame to be made again: its work instead of the budget, its answers instead of the clock's.
   /// nullptr: none. One substep only. Outlives the Solve(), whose report it is not part of.
   const Replay* replay = nullptr;
-  /// Takes down which thread did what when, on Path::kFast; nullptr: nobody does. Must outlive
-  /// every Solve(). No result depends on it.
+  /// Notes which thread did what when, on Path::kFast, or nullptr. Must outlive every Solve().
   SpanRecorder* spans = nullptr;
   /// Of Budget::Time; nullptr: std::chrono::steady_clock. Must outlive every Solve().
   const Clock* clock = nullptr;

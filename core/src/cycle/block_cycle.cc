@@ -204,7 +204,8 @@ bool BlockCycle::MoveOn() {
 void BlockCycle::JudgeIslands(bool seen) {
   const Settings& settings = frame_->settings;
   for (int i = 0; i < islands_.count() && seen; ++i) {
-    if (islands_[i].open() && Largest(islands_[i].seen) <= settings.tuning.min_progress) {
+    const double moved = Largest(islands_[i].seen, UnitOf(settings));
+    if (islands_[i].open() && moved <= settings.tuning.min_progress) {
       islands_.Stop(i, StopReason::kStationary);
     }
   }
@@ -232,9 +233,9 @@ void BlockCycle::StopLate() {
 
 void BlockCycle::JudgeNear() {
   // near the solution, the state itself is measured
-  const double tolerance = frame_->settings.tolerance;
+  const double tolerance = frame_->settings.tolerance, unit = UnitOf(frame_->settings);
   const auto near = [&](int i) {
-    return islands_[i].open() && Largest(islands_[i].seen) <= kNearTolerance * tolerance;
+    return islands_[i].open() && Largest(islands_[i].seen, unit) <= kNearTolerance * tolerance;
   };
   chosen_.Clear();
   bool any = false;
@@ -247,7 +248,7 @@ void BlockCycle::JudgeNear() {
   sweeps_->Measure(chosen_.groups());
   ReadErrors();
   for (int i = 0; i < islands_.count(); ++i) {
-    if (near(i) && Largest(after_[i]) <= tolerance) islands_.Stop(i, StopReason::kConverged);
+    if (near(i) && Largest(after_[i], unit) <= tolerance) islands_.Stop(i, StopReason::kConverged);
   }
 }
 

@@ -414,6 +414,7 @@ void BlockSteps::TakeAs(int group, std::span<const int> islands, BlockStep<T>* s
   for (int i : islands) {
     if (chosen(i)) {
       islands_[i] = islands_now_[i];
+      islands_[i].result.ToMetres(UnitOf(*settings_));
       if (!given_up) MemoryOf(i)->SawJoints(islands_[i].result);
       work_[i] = price * frame_->plan().islands()[i].rows / rows;
       given_up_[i] = given_up ? 1 : 0;

@@ -31,7 +31,7 @@ void QuietBodies::Reserve(std::size_t bodies) {
 }
 
 int QuietBodies::LookAt(const ContactProblem& problem, std::span<const Velocity> velocities,
-                        std::span<const Velocity> means, double speed,
+                        std::span<const Velocity> means, const Speeds& speeds,
                         std::span<const int> island_of, int first, int count) {
   const bool moves_on = !means.empty() && problem.motions.empty();
   Run* const runs = runs_.data() + first;
@@ -47,7 +47,8 @@ int QuietBodies::LookAt(const ContactProblem& problem, std::span<const Velocity>
         std::max(View(end.linear).squaredNorm(), View(mean.linear).squaredNorm());
     const double angular2 =
         std::max(View(end.angular).squaredNorm(), View(mean.angular).squaredNorm());
-    const bool is_quiet = linear2 < speed * speed && angular2 < speed * speed;
+    const bool is_quiet =
+        linear2 < speeds.linear * speeds.linear && angular2 < speeds.angular * speeds.angular;
     known.solves = is_quiet ? std::min(known.solves + 1, kMost) : 0;
     if (found == 0 || runs[found - 1].island != at) runs[found++] = {at, 0, 0, kMost};
     Run& run = runs[found - 1];
@@ -59,13 +60,13 @@ int QuietBodies::LookAt(const ContactProblem& problem, std::span<const Velocity>
 }
 
 void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
-                       std::span<const Velocity> means, double speed, detail::Threads* threads,
-                       Report* report) {
+                       std::span<const Velocity> means, const Speeds& speeds,
+                       detail::Threads* threads, Report* report) {
   const int bodies = static_cast<int>(problem.bodies.size());
   counts_.resize(bodies);
   const auto look = [&](int first, int count) {
     runs_of_[first / kBodiesOfPart] =
-        LookAt(problem, velocities, means, speed, report->island_of, first, count);
+        LookAt(problem, velocities, means, speeds, report->island_of, first, count);
   };
   threads->For(bodies, kBodiesOfPart, look, {SpanKind::kResults});
   for (IslandReport& island : report->islands) {

@@ -16,15 +16,18 @@ namespace cairn {
 /// A body at another place than in the last frame, or of another name, starts anew.
 class QuietBodies {
  public:
+  /// What is quiet is slower.
+  struct Speeds {
+    double linear, angular;
+  };
   /// Makes room for so many bodies: Tell() allocates nothing.
   void Reserve(std::size_t bodies);
   /// @param means  that bodies move by, where those are others, which are to be quiet, too; or none
-  /// @param speed  Tuning::quiet_speed
   /// @param threads  that help, if they are here
   /// @pre room is reserved, the report is that of the problem, solved; velocities are those that it
   /// ends with
   void Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
-            std::span<const Velocity> means, double speed, detail::Threads* threads,
+            std::span<const Velocity> means, const Speeds& speeds, detail::Threads* threads,
             Report* report);
   void Forget() { counts_.clear(); }
 
@@ -43,7 +46,7 @@ class QuietBodies {
   /// Those of a part of the bodies into runs_, from the number of its first body on. Returns how
   /// many.
   int LookAt(const ContactProblem& problem, std::span<const Velocity> velocities,
-             std::span<const Velocity> means, double speed, std::span<const int> island_of,
+             std::span<const Velocity> means, const Speeds& speeds, std::span<const int> island_of,
              int first, int count);
 
   Array<Count> counts_;  ///< by body

@@ -135,7 +135,7 @@ NoStep StepPlanner::PlanStep(int g, std::span<const int> islands, Planned* plann
 
 NoStep StepPlanner::Weigh(int g, int i) {
   const StepOdds& odds = steps_->odds(i);
-  const double largest = Largest((*islands_)[i].seen);
+  const double largest = Largest((*islands_)[i].seen, UnitOf(frame_->settings));
   const bool near = largest <= kNear * frame_->settings.tolerance;
   // what sweeps have left joints open by for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;

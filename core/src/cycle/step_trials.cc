@@ -104,9 +104,10 @@ void StepTrials::FindHarm() {
   if (!IsGuarded(frame_->settings)) return;
   BlockSteps& steps = *parts_.steps;
   steps.FindAfter();
+  const double unit = UnitOf(frame_->settings);
   for (int i : stepped_) {
     const Merit &before = merits_before_.of(i), &after = merits_with_step_.of(i);
-    const double error = Largest(before_[i]);
+    const double error = unit * Largest(before_[i], unit);
     const bool harmful = after.is_worse_than_none() || IsTooMuch(steps.result(i).joint_speed) ||
                          IsTooViolent(before, after, steps.mass(i), error) ||
                          IsFlung(steps.before(i), steps.after(i), steps.mass(i), error);

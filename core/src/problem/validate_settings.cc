@@ -11,8 +11,8 @@ BadSetting FindBadSetting(const Settings& settings) {
   const auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, geometric_stiffness,
                tolerance, budget, threads, executor, acceleration, step_policy, proximal_joints,
                tuning] = settings;
-  const auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, lifted_friction,
-               replay, spans, clock] = tuning;
+  const auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, units_per_metre,
+               lifted_friction, replay, spans, clock] = tuning;
   static_cast<void>(steps);  // any will do, and any of these
   static_cast<void>(geometric_stiffness);
   static_cast<void>(executor);
@@ -39,6 +39,9 @@ BadSetting FindBadSetting(const Settings& settings) {
   judge.Inside("threads", threads, 1, 1024, "1 to 1024");
   judge.Holds(omega > 0 && omega < 2, {"tuning.omega", omega, "above 0 and below 2"});
   judge.AtLeast("tuning.quiet_speed", quiet_speed, 0);
+  if (units_per_metre != 0) {
+    judge.Inside("tuning.units_per_metre", units_per_metre, 1e-6, 1e6, "0, or 1e-6 to 1e6");
+  }
   judge.Enumerator("tuning.lifted_friction", lifted_friction, detail::LiftedFriction::kHold,
                    "one of LiftedFriction");
   judge.Enumerator("acceleration", acceleration, Acceleration::kNncg, "one of Acceleration");

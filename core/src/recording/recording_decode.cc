@@ -82,6 +82,7 @@ class Layout {
 
   RecordingStatus Read();
   const std::optional<Entry>& section(Section section) const { return sections_[section]; }
+  std::uint32_t version() const { return version_; }
 
  private:
   RecordingStatus ReadHeader();
@@ -327,7 +328,9 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   }
   read.source.assign(source.begin(), source.end());
   read.frame = frame.frame;
-  read.settings.geometric_stiffness = false;  // as those were solved that do not say
+  // as those were solved that do not say
+  read.settings.geometric_stiffness = false;
+  if (layout.version() < kVersionOfUnits) read.settings.tuning.units_per_metre = 0;
   for (const StepFields& fields : step) {
     read.time_step = fields.time_step;
     read.settings.substeps = fields.substeps;

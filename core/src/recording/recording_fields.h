@@ -201,8 +201,8 @@ void Visit(Settings& settings, Io& io) {
   auto& [method, path, k_gs, k_sm, steps, max_sweeps, substeps, relax, geometric_stiffness,
          tolerance, budget, threads, executor, acceleration, step_policy, proximal_joints, tuning] =
       settings;
-  auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, lifted_friction,
-         replay, spans, clock] = tuning;
+  auto& [min_progress, min_sweeps, omega, proximal, refinements, quiet_speed, units_per_metre,
+         lifted_friction, replay, spans, clock] = tuning;
   if (!steps) k_sm = 0;         // as files have it
   static_cast<void>(substeps);  // have sections of their own
   static_cast<void>(geometric_stiffness);
@@ -236,8 +236,7 @@ void Visit(Settings& settings, Io& io) {
   io.F64(omega);
   io.F64(proximal);
   io.F64(proximal_joints);
-  double of_matrices = 0;  // was active_tolerance
-  io.F64(of_matrices);
+  io.F64(units_per_metre);  // was active_tolerance, of matrices
   io.I32(refinements);
   io.Enum(acceleration, Acceleration::kNncg);
 }

@@ -14,6 +14,8 @@ namespace cairn {
 /// Written, and the oldest that is read: it knew no joints. The second knew no substeps, the third
 /// no geometric stiffness.
 inline constexpr std::uint32_t kRecordingVersion = 4, kOldestVersion = 1;
+/// Where earlier ones have Tuning::units_per_metre there is something else.
+inline constexpr std::uint32_t kVersionOfUnits = 4;
 /// No text begins like that, and whatever rewrites line ends destroys it.
 inline constexpr std::array<unsigned char, 8> kRecordingMagic = {0x89, 'C',  'R',  'N',
                                                                  '\r', '\n', 0x1a, '\n'};

@@ -57,7 +57,8 @@ void IslandCycle::Advance(BudgetMeter* meter) {
   const bool may_step = !stepped && StepsLeft();
   if (may_step || settings_.tolerance > 0) {
     residual_ = MeasureNow(meter);
-    if (Largest(residual_) <= settings_.tolerance) return Stop(StopReason::kConverged);
+    if (Largest(residual_, UnitOf(settings_)) <= settings_.tolerance)
+      return Stop(StopReason::kConverged);
   }
   step_next_ = may_step && StepPays(meter);
 }
@@ -100,7 +101,7 @@ bool IslandCycle::SweepOnce(BudgetMeter* meter) {
     report_.guards.start = true;
     return true;
   }
-  if (moved <= settings_.tuning.min_progress) Stop(StopReason::kStationary);
+  if (moved / UnitOf(settings_) <= settings_.tuning.min_progress) Stop(StopReason::kStationary);
   return !done();
 }
 
@@ -137,7 +138,9 @@ void IslandCycle::StepRound(BudgetMeter* meter) {
   const Point before = at_;
   const StepSettings step = memory_->Step(settings_);
   meter->Begin();
-  const StepResult result = TakeStep(island_, step, &SystemOf(memory_), &at_.state);
+  StepResult result = TakeStep(island_, step, &SystemOf(memory_), &at_.state);
+  const double unit = UnitOf(settings_);
+  result.ToMetres(unit);
   report_.factorisations += result.factorisations;
   const double cost = StepCost(island_, settings_, result.factorisations, SystemOf(memory_));
   meter->Charge(WorkKind::kStep, cost);
@@ -147,12 +150,13 @@ void IslandCycle::StepRound(BudgetMeter* meter) {
   Sweeps(SweepsOfRound(), meter);
   memory_->SawJoints(result);
   const Merit merit = MeasureMerit(island_, at_.state);
+  const double error = unit * Largest(residual_, unit);
   const bool violent =
-      IsTooViolent(MeasureMerit(island_, before.state), merit, island_.mass, Largest(residual_));
+      IsTooViolent(MeasureMerit(island_, before.state), merit, island_.mass, error);
   const IslandMotion motion_before =
       LargerOf(MeasureMotion(island_, before.state, 0), MeasureMotion(island_, before.state, 1));
-  const bool flung = IsFlung(motion_before, MeasureMotion(island_, at_.state, 1), island_.mass,
-                             Largest(residual_));
+  const bool flung =
+      IsFlung(motion_before, MeasureMotion(island_, at_.state, 1), island_.mass, error);
   const bool worse = merit.is_worse_than_none();
   const bool sound = !guards_ || !(worse || violent || flung || IsTooMuch(result.joint_speed));
   if (!sound) {

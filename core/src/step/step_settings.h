@@ -4,15 +4,22 @@
 #include <algorithm>
 
 #include "cairn/report_details.h"
+#include "cairn/settings.h"
 
 namespace cairn {
 
 /// Fewer sweeps after a step do not smooth what it leaves behind.
 inline constexpr int kLeastSweepsAfterStep = 3;
 
-/// Of all rows, in [m/s] or [rad/s].
-inline double Largest(const Residual& residual) {
-  return std::max(residual.max, residual.max_angular);
+/// Units of length in a metre.
+inline double UnitOf(const Settings& settings) {
+  const double set = settings.tuning.units_per_metre;
+  return set > 0 ? set : 1;
+}
+
+/// Of all rows, in metres a second or rad/s. @p unit: UnitOf()
+inline double Largest(const Residual& residual, double unit) {
+  return std::max(residual.max / unit, residual.max_angular);
 }
 
 struct StepSettings {
@@ -33,6 +40,12 @@ struct StepResult {
   /// Largest d |x| of rows without bounds before they are condensed, and after the step [m/s] or
   /// [rad/s]: what an impulse would change its own row by, and so what floats round at 6e-8 of.
   double solved_joint_speed = 0, joint_speed = 0;
+
+  /// From the caller's unit of length.
+  void ToMetres(double unit) {
+    solved_joint_speed /= unit;
+    joint_speed /= unit;
+  }
 };
 
 /// Solves with its factor that condensing joints takes: each leaves eps / (eps + l) of the velocity

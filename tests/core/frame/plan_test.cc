@@ -58,14 +58,14 @@ void ExpectSlotsOfTheirBodies(const Planned& p) {
       }
       const Pair& pair = p.plan.pair(b, lane);
       EXPECT_NE(block.a[lane], 0) << "the first slot is read by all and written by none";
-      const int a = p.plan.own_slot(block.a[lane]), b = p.plan.own_slot(block.b[lane]);
-      EXPECT_EQ(p.plan.body_of_slot()[a], pair.a);
-      EXPECT_EQ(p.plan.body_of_slot()[b], pair.b);
+      const int slot_a = p.plan.own_slot(block.a[lane]), slot_b = p.plan.own_slot(block.b[lane]);
+      EXPECT_EQ(p.plan.body_of_slot()[slot_a], pair.a);
+      EXPECT_EQ(p.plan.body_of_slot()[slot_b], pair.b);
       if (pair.a != kWorld) {
-        EXPECT_EQ(p.plan.slot_of_body()[pair.a], a);
+        EXPECT_EQ(p.plan.slot_of_body()[pair.a], slot_a);
       }
       if (pair.b != kWorld) {
-        EXPECT_EQ(p.plan.slot_of_body()[pair.b], b);
+        EXPECT_EQ(p.plan.slot_of_body()[pair.b], slot_b);
       }
     }
   }

@@ -181,7 +181,8 @@ typedef struct CairnSettings {
   int32_t maxSweeps;
   bool geometricStiffness; /* inertia is raised where joints pull too hard for timeStep */
   int32_t substeps;        /* parts that the step is cut into, 1 to 64; see cairnMeanVelocities() */
-  double tolerance, quietSpeed; /* [m/s]; of CairnIsland::quiet, [m/s] and [rad/s] */
+  double tolerance, quietSpeed; /* [m/s] and [rad/s]; quietSpeed: of CairnIsland::quiet */
+  double unitsPerMetre;         /* 100 where lengths are centimetres; 0: 1 */
   CairnBudgetKind budgetKind;
   int64_t budget;     /* nanoseconds, or units of work: 1 = 1 row relaxed */
   int32_t minSweeps;  /* even if the budget is spent; -1: by the budget */
@@ -228,7 +229,6 @@ typedef struct CairnIsland {
   double strain; /* largest CairnBody::strain; above 2 the step is too long */
   int32_t strainedBody, enoughSubsteps; /* whose, or -1; substeps that bring it to 2, or 0 */
 } CairnIsland;
-
 CAIRN_API CairnBody cairnDefaultBody(void);
 CAIRN_API CairnContactPoint cairnDefaultContactPoint(void);
 CAIRN_API CairnManifold cairnDefaultManifold(void);

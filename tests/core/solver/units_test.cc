@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Units do not matter: a problem in other units of mass, or of length with Tuning::units_per_metre,
+// has the same answer, to the bit, as units are powers of two.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "cairn/detail/eigen.h"
+#include "tests/core/support/block_problems.h"
+
+namespace cairn {
+namespace {
+
+using test::Scene;
+using test::Solution;
+
+bool OnlyTurns(const Row& row) {
+  return View(row.linear_a).isZero() && View(row.linear_b).isZero();
+}
+
+/// The scene with lengths in units of which there are so many in a metre.
+Scene InUnits(const Scene& scene, double unit) {
+  Scene other = scene;
+  for (Eigen::Vector3d& position : other.positions) position *= unit;
+  for (Body& body : other.bodies) {
+    View(body.inv_inertia) /= unit * unit;
+    View(body.velocity.linear) *= unit;
+    View(body.impulse) *= unit;
+    View(body.angular_impulse) *= unit * unit;
+  }
+  for (Row& row : other.rows) {
+    const bool turns = OnlyTurns(row);
+    if (!turns) {
+      View(row.angular_a) *= unit;
+      View(row.angular_b) *= unit;
+      row.target *= unit;
+    } else {
+      row.compliance /= unit * unit;
+    }
+    const double impulse = turns ? unit * unit : unit;
+    row.lo *= impulse;
+    row.hi *= impulse;
+    // coefficients of what turns against what pushes are lengths
+    if (row.parent != kNoRow && turns && !OnlyTurns(scene.rows[row.parent])) row.friction *= unit;
+  }
+  return other;
+}
+
+/// The scene with so many units of mass in a kilogram.
+Scene InMasses(Scene scene, double unit) {
+  for (Body& body : scene.bodies) {
+    body.inv_mass /= unit;
+    View(body.inv_inertia) /= unit;
+    View(body.impulse) *= unit;
+    View(body.angular_impulse) *= unit;
+  }
+  for (Row& row : scene.rows) {
+    row.compliance /= unit;
+    row.lo *= unit;
+    row.hi *= unit;
+  }
+  return scene;
+}
+
+/// A solution back in metres and kilograms.
+Solution Back(Solution solution, const Scene& scene, double unit, double mass) {
+  for (size_t i = 0; i < solution.x.size(); ++i) {
+    solution.x[i] /= mass * (OnlyTurns(scene.rows[i]) ? unit * unit : unit);
+  }
+  for (Velocity& velocity : solution.v) View(velocity.linear) /= unit;
+  return solution;
+}
+
+/// Frame after frame with one solver, which remembers.
+void ExpectTheSameInUnits(const Scene& scene, Settings settings, double unit, double mass = 1) {
+  Solver in_metres(settings);
+  settings.tuning.units_per_metre = unit;
+  Solver in_units(settings);
+  const Scene other = InMasses(InUnits(scene, unit), mass);
+  for (int frame = 0; frame < 4; ++frame) {
+    const Solution expected = test::Solve(&in_metres, scene);
+    const Solution solution = test::Solve(&in_units, other);
+    ASSERT_TRUE(solution.report.ok());
+    ASSERT_TRUE(test::SameBits(Back(solution, scene, unit, mass), expected)) << "frame " << frame;
+    EXPECT_EQ(solution.report.sweeps, expected.report.sweeps);
+    EXPECT_EQ(solution.report.steps_accepted, expected.report.steps_accepted);
+    EXPECT_EQ(solution.report.steps_restored, expected.report.steps_restored);
+    EXPECT_EQ(solution.report.stop, expected.report.stop);
+    EXPECT_EQ(solution.report.residual_max, unit * expected.report.residual_max);
+    EXPECT_EQ(solution.report.residual_angular, expected.report.residual_angular);
+  }
+}
+
+std::vector<Scene> Scenes() {
+  std::vector<Scene> scenes = {test::Tower(20), test::Wall(6, 6), test::HangingChain(20, 100),
+                               test::Plate(60)};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    scenes.push_back(test::Heap({.bodies = 40, .contacts = 90, .pins = 20}, seed));
+  }
+  return scenes;
+}
+
+class Units : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Every, Units, testing::Values(0.0078125, 0.5, 2, 128, 1024));
+
+TEST_P(Units, DoNotChangeWhatComesOut) {
+  for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, {}, GetParam());
+}
+
+// whitened bodies have square roots of masses: exact for powers of four
+TEST(UnitsOfMass, DoNotChangeWhatComesOut) {
+  Settings weighed;
+  weighed.step_policy = StepPolicy::kWeighed;
+  weighed.max_sweeps = 10;
+  for (const double mass : {1.0 / 1024, 0.25, 4.0, 1024.0, 0x1p20}) {
+    for (const Scene& scene : Scenes()) {
+      ExpectTheSameInUnits(scene, {}, 1, mass);
+      ExpectTheSameInUnits(scene, weighed, 1, mass);
+      ExpectTheSameInUnits(scene, {}, 128, mass);
+    }
+  }
+}
+
+TEST_P(Units, DoNotChangeWhichStepsAreTaken) {
+  Settings weighed, always = test::ColouredSteps(40);
+  weighed.step_policy = StepPolicy::kWeighed;
+  weighed.max_sweeps = 10;
+  always.tolerance = 1e-5;
+  Settings work;
+  work.budget = Budget::Work(200'000);
+  for (const Settings& settings : {weighed, always, work}) {
+    for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, settings, GetParam());
+  }
+}
+
+TEST_P(Units, DoNotChangeWhatComesOutInDoublePrecision) {
+  Settings settings;
+  settings.path = Path::kReference;
+  settings.max_sweeps = 60;
+  for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, settings, GetParam());
+}
+
+TEST(UnitsPerMetre, HaveARange) {
+  for (const double unit : {-1.0, 1e-7, 1e7, kInfinity}) {
+    Settings settings;
+    settings.tuning.units_per_metre = unit;
+    EXPECT_STREQ(FindBadSetting(settings).name, "tuning.units_per_metre") << unit;
+  }
+}
+
+TEST(UnitsPerMetre, ScaleWhatIsQuiet) {
+  Scene scene = test::Tower(2);
+  for (Body& body : scene.bodies) body.velocity.linear = {0.2, 0, 0};
+  Settings settings;
+  EXPECT_EQ(test::Solve(settings, scene).report.islands[0].quiet, 0);
+  settings.tuning.units_per_metre = 100;
+  EXPECT_GT(test::Solve(settings, scene).report.islands[0].quiet, 0);
+}
+
+}  // namespace
+}  // namespace cairn
