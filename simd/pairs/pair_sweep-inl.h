@@ -196,17 +196,15 @@ struct ErrorSums {
   W max, max_angular, energy;
 
   HWY_INLINE void Reset() { max = max_angular = energy = Zeros<W>(); }
-  /// @p d_ratio: of the row; null where inv_d is that of whole bodies
-  HWY_INLINE void Add(const RowShape& row, const W& change, const W& inv_d, const float* d_ratio) {
-    W moved = Abs(change);
+  /// @p moved: by impulses; @p of_d: the same, as whole bodies would have moved them
+  HWY_INLINE void Add(const RowShape& row, const W& moved, const W& inv_d, const W& of_d) {
     const W e = Div(moved, inv_d);
     if (row.angular) {
       max_angular = Max(e, max_angular);
     } else {
       max = Max(e, max);
     }
-    if (d_ratio != nullptr) moved = Mul(moved, LoadLanes<W>(d_ratio));
-    energy = AddProduct(energy, e, moved);
+    energy = AddProduct(energy, e, of_d);
   }
   /// Lanes of the runs that follow, too: theirs come later.
   HWY_INLINE void Store(int first, BlockError* error) const {
@@ -218,7 +216,8 @@ struct ErrorSums {
 
 /// A run on its way through the rows. What a row changed is pushed to the bodies when the next one
 /// has read them: that one takes it into account by its coupling, and waits less.
-template <PairForm form, Pass pass, class W>
+/// @tparam copies  its block has some: errors are measured by whole bodies
+template <PairForm form, Pass pass, class W, bool copies>
 struct RunState {
   /// Registers that are shorter than a line may hold lanes of other runs beside those of this one.
   static constexpr bool kShared = W::kLaneCount < kLanes;
@@ -243,7 +242,7 @@ struct RunState {
     line += PairLines(form);
     if (Measures(pass)) {
       errors.Reset();
-      if (block.copies) d_ratio = work.d_ratios[block.d_ratios].lane + run.first;
+      if (copies) d_ratio = work.d_ratios[block.d_ratios].lane + run.first;
     }
   }
   /// @p x_row: its impulses
@@ -255,15 +254,17 @@ struct RunState {
       PushChange();
     }
     line += RowLines(form, row);
-    PassRatio();
-  }
-  HWY_INLINE void PassRatio() {
-    if (Measures(pass) && d_ratio != nullptr) d_ratio += kLanes;
+    if (copies) d_ratio += kLanes;
   }
   HWY_INLINE void PushChange() {
     if (changed.lane == nullptr) return;
     pair.Push(changed, change_before);
     changed = {};
+  }
+  HWY_INLINE W NextRatio() {
+    const W ratio = LoadLanes<W>(d_ratio);
+    d_ratio += kLanes;
+    return ratio;
   }
   HWY_INLINE static bool TakesPart(const PairWork& work, const RowShape& row) {
     if (pass == Pass::kFriction && row.parent < 0) return false;
@@ -285,9 +286,7 @@ struct RunState {
       if (Measures(pass)) inv_d = Div(step, LoadLanes<W>(bounds[0]));
       bounds += 1;
     }
-    if (pass == Pass::kMeasure && d_ratio != nullptr) {
-      inv_d = Mul(inv_d, LoadLanes<W>(d_ratio));
-    }
+    if (copies && pass == Pass::kMeasure) inv_d = Mul(inv_d, NextRatio());
     // old + factor (target - G v)
     const W factor = pass == Pass::kMeasure ? inv_d : step;
     const W error = Sub(target, Add(pair.Head(line), pair.Tail(line)));
@@ -306,8 +305,10 @@ struct RunState {
       now = Add(old, change);
     }
     if (Measures(pass)) {
-      errors.Add(row, change, inv_d, pass == Pass::kMeasuredSweep ? d_ratio : nullptr);
-      PassRatio();
+      const W size = Abs(change);
+      W of_d = size;
+      if (copies && pass == Pass::kMeasuredSweep) of_d = Mul(size, NextRatio());
+      errors.Add(row, size, inv_d, of_d);
     }
     if (pass != Pass::kMeasure) {
       StoreLanes(kShared ? own.Choose(now, old) : now, x_row);
@@ -328,9 +329,9 @@ HWY_INLINE std::span<const RowShape> RowsOf(const PairBlock& block) {
 }
 
 /// @p width: WidthOf() its lanes at least.
-template <PairForm form, Pass pass, int width>
+template <PairForm form, Pass pass, int width, bool copies>
 HWY_NOINLINE void DoRun(const PairWork& work, const LaneRun& run) {
-  RunState<form, pass, Wide<width>> state(work, run);
+  RunState<form, pass, Wide<width>, copies> state(work, run);
   float* x = state.x[0];
   for (const RowShape& row : RowsOf(work.blocks[run.block])) {
     state.DoRow(work, row, x);
@@ -340,9 +341,10 @@ HWY_NOINLINE void DoRun(const PairWork& work, const LaneRun& run) {
 }
 
 /// Two runs, row by row: while a row waits for the one before it, the other run has work.
+/// @pre neither has copies
 template <PairForm form, Pass pass>
 HWY_NOINLINE void DoTwoRuns(const PairWork& work, const LaneRun& run, const LaneRun& next) {
-  RunState<form, pass, Wide<kLanes>> first(work, run), second(work, next);
+  RunState<form, pass, Wide<kLanes>, false> first(work, run), second(work, next);
   float *x_first = first.x[0], *x_second = second.x[0];
   for (const RowShape& row : RowsOf(work.blocks[run.block])) {
     first.DoRow(work, row, x_first);
@@ -364,6 +366,18 @@ inline bool HasFriction(const PairBlock& block) {
 /// Registers that hold more than one run: a line is one of them.
 constexpr bool kTwoAtOnce = Wide<kLanes>::kRegisters == 1;
 
+template <PairForm form, Pass pass, bool copies>
+HWY_INLINE void DoOne(const PairWork& work, const LaneRun& run) {
+  switch (WidthOf(run.lanes)) {
+    case 4:
+      return DoRun<form, pass, 4, copies>(work, run);
+    case 8:
+      return DoRun<form, pass, 8, copies>(work, run);
+    default:
+      return DoRun<form, pass, kLanes, copies>(work, run);
+  }
+}
+
 /// The first of some runs, or the first two if they are @p alike. Returns how many were done.
 template <PairForm form, Pass pass>
 int DoSome(const PairWork& work, const LaneRun& run, const LaneRun* alike) {
@@ -375,16 +389,13 @@ int DoSome(const PairWork& work, const LaneRun& run, const LaneRun* alike) {
       return 2;
     }
   }
-  switch (WidthOf(run.lanes)) {
-    case 4:
-      DoRun<form, pass, 4>(work, run);
-      break;
-    case 8:
-      DoRun<form, pass, 8>(work, run);
-      break;
-    default:
-      DoRun<form, pass, kLanes>(work, run);
+  if constexpr (Measures(pass)) {
+    if (block.copies) {
+      DoOne<form, pass, true>(work, run);
+      return 1;
+    }
   }
+  DoOne<form, pass, false>(work, run);
   return 1;
 }
 
@@ -475,12 +486,11 @@ void MeasureBlocks(const PairWork& work) {
   for (int block = work.first_block; block < end;) {
     const LaneRun run = whole(block), next = block + 1 < end ? whole(block + 1) : LaneRun{};
     const bool two = block + 1 < end && work.blocks[block].form == work.blocks[block + 1].form &&
-                     work.blocks[block].rows == work.blocks[block + 1].rows;
+                     work.blocks[block].rows == work.blocks[block + 1].rows && !run.copies &&
+                     !next.copies;
     if (run.copies) FillCopies(work, run);
-    if (two && next.copies) FillCopies(work, next);
     block += DoSome<Pass::kMeasure>(work, run, two ? &next : nullptr);
     if (run.copies) ClearCopies(work, run);
-    if (two && next.copies) ClearCopies(work, next);
   }
 }
 

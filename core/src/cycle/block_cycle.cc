@@ -203,9 +203,9 @@ bool BlockCycle::MoveOn() {
 
 void BlockCycle::JudgeIslands(bool seen) {
   const Settings& settings = frame_->settings;
+  const double unit = UnitOf(settings);
   for (int i = 0; i < islands_.count() && seen; ++i) {
-    const double moved = Largest(islands_[i].seen, UnitOf(settings));
-    if (islands_[i].open() && moved <= settings.tuning.min_progress) {
+    if (islands_[i].open() && IsWithin(islands_[i].seen, settings.tuning.min_progress, unit)) {
       islands_.Stop(i, StopReason::kStationary);
     }
   }
@@ -235,7 +235,7 @@ void BlockCycle::JudgeNear() {
   // near the solution, the state itself is measured
   const double tolerance = frame_->settings.tolerance, unit = UnitOf(frame_->settings);
   const auto near = [&](int i) {
-    return islands_[i].open() && Largest(islands_[i].seen, unit) <= kNearTolerance * tolerance;
+    return islands_[i].open() && IsWithin(islands_[i].seen, kNearTolerance * tolerance, unit);
   };
   chosen_.Clear();
   bool any = false;
@@ -248,7 +248,7 @@ void BlockCycle::JudgeNear() {
   sweeps_->Measure(chosen_.groups());
   ReadErrors();
   for (int i = 0; i < islands_.count(); ++i) {
-    if (near(i) && Largest(after_[i], unit) <= tolerance) islands_.Stop(i, StopReason::kConverged);
+    if (near(i) && IsWithin(after_[i], tolerance, unit)) islands_.Stop(i, StopReason::kConverged);
   }
 }
 

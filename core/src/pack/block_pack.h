@@ -57,7 +57,7 @@ struct BlockPacker {
   }
   /// What R of a body is to be multiplied by where a lane sees a copy of it, else 1.
   float ScaleOf(const simd::PairBlock& block, int lane, const Pair& pair, int body) const {
-    if (!block.copies || body == kWorld) return 1;
+    if (body == kWorld) return 1;
     const simd::BodyCopy* copy = nullptr;
     if (body == pair.a) copy = plan.copy_at(block.a[lane]);
     if (body == pair.b) copy = plan.copy_at(block.b[lane]);
@@ -89,6 +89,7 @@ class SeenBodies {
       : packer_(packer), block_(packer.plan.blocks()[block]) {}
   const simd::ContactBody* Of(int lane, const Pair& pair, int body) {
     const simd::ContactBody* const whole = packer_.contact_body(body);
+    if (!block_.copies) return whole;
     const float scale = packer_.ScaleOf(block_, lane, pair, body);
     if (scale == 1) return whole;
     simd::ContactBody& copy = copies_[count_++];

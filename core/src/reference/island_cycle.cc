@@ -57,7 +57,7 @@ void IslandCycle::Advance(BudgetMeter* meter) {
   const bool may_step = !stepped && StepsLeft();
   if (may_step || settings_.tolerance > 0) {
     residual_ = MeasureNow(meter);
-    if (Largest(residual_, UnitOf(settings_)) <= settings_.tolerance)
+    if (IsWithin(residual_, settings_.tolerance, UnitOf(settings_)))
       return Stop(StopReason::kConverged);
   }
   step_next_ = may_step && StepPays(meter);

@@ -22,6 +22,11 @@ inline double Largest(const Residual& residual, double unit) {
   return std::max(residual.max / unit, residual.max_angular);
 }
 
+/// Largest() is no more than that. Without a division.
+inline bool IsWithin(const Residual& residual, double most, double unit) {
+  return residual.max <= most * unit && residual.max_angular <= most;
+}
+
 struct StepSettings {
   double proximal;         ///< Tuning::proximal, as adapted to the island
   double proximal_joints;  ///< Settings::proximal_joints
