@@ -77,7 +77,7 @@ void ExpectTheSameInUnits(const Scene& scene, Settings settings, double unit, do
   settings.tuning.units_per_metre = unit;
   Solver in_units(settings);
   const Scene other = InMasses(InUnits(scene, unit), mass);
-  for (int frame = 0; frame < 4; ++frame) {
+  for (int frame = 0; frame < 3; ++frame) {
     const Solution expected = test::Solve(&in_metres, scene);
     const Solution solution = test::Solve(&in_units, other);
     ASSERT_TRUE(solution.report.ok());
@@ -92,19 +92,25 @@ void ExpectTheSameInUnits(const Scene& scene, Settings settings, double unit, do
 }
 
 std::vector<Scene> Scenes() {
-  std::vector<Scene> scenes = {test::Tower(20), test::Wall(6, 6), test::HangingChain(20, 100),
-                               test::Plate(60)};
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    scenes.push_back(test::Heap({.bodies = 40, .contacts = 90, .pins = 20}, seed));
+  std::vector<Scene> scenes = {test::Tower(8), test::HangingChain(10, 100), test::Plate(24)};
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    scenes.push_back(test::Heap({.bodies = 20, .contacts = 45, .pins = 10}, seed));
   }
   return scenes;
 }
 
+/// As they come, but for how many there may be.
+Settings Sweeps() {
+  Settings settings;
+  settings.max_sweeps = 60;
+  return settings;
+}
+
 class Units : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(Every, Units, testing::Values(0.0078125, 0.5, 2, 128, 1024));
+INSTANTIATE_TEST_SUITE_P(Every, Units, testing::Values(0.0078125, 2, 128));
 
 TEST_P(Units, DoNotChangeWhatComesOut) {
-  for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, {}, GetParam());
+  for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, Sweeps(), GetParam());
 }
 
 // whitened bodies have square roots of masses: exact for powers of four
@@ -112,11 +118,10 @@ TEST(UnitsOfMass, DoNotChangeWhatComesOut) {
   Settings weighed;
   weighed.step_policy = StepPolicy::kWeighed;
   weighed.max_sweeps = 10;
-  for (const double mass : {1.0 / 1024, 0.25, 4.0, 1024.0, 0x1p20}) {
+  for (const double mass : {1.0 / 1024, 4.0, 0x1p20}) {
     for (const Scene& scene : Scenes()) {
-      ExpectTheSameInUnits(scene, {}, 1, mass);
-      ExpectTheSameInUnits(scene, weighed, 1, mass);
-      ExpectTheSameInUnits(scene, {}, 128, mass);
+      ExpectTheSameInUnits(scene, Sweeps(), 1, mass);
+      ExpectTheSameInUnits(scene, weighed, 128, mass);
     }
   }
 }
@@ -127,7 +132,7 @@ TEST_P(Units, DoNotChangeWhichStepsAreTaken) {
   weighed.max_sweeps = 10;
   always.tolerance = 1e-5;
   Settings work;
-  work.budget = Budget::Work(200'000);
+  work.budget = Budget::Work(50'000);
   for (const Settings& settings : {weighed, always, work}) {
     for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, settings, GetParam());
   }
@@ -136,7 +141,7 @@ TEST_P(Units, DoNotChangeWhichStepsAreTaken) {
 TEST_P(Units, DoNotChangeWhatComesOutInDoublePrecision) {
   Settings settings;
   settings.path = Path::kReference;
-  settings.max_sweeps = 60;
+  settings.max_sweeps = 40;
   for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, settings, GetParam());
 }
 
