@@ -348,14 +348,32 @@ TEST(BlockSolver, SweepsAsTheOracleDoesWhereLanesShareAHub) {
   }
 }
 
-// From what sweeps left, with a factor of all rows: the shares of a hub are taken back there.
-TEST(BlockSolver, StepsSolveWhatSharesAHub) {
-  const Scene hub = Hub(60, 1);
-  Settings settings = test::ColouredSteps(60);
-  settings.tolerance = 1e-5;
-  const Solution steps = test::Solve(settings, hub);
-  EXPECT_GT(steps.report.steps_accepted, 0);
-  EXPECT_LT(steps.report.residual_max, 1e-5);
+/// A light plate on which heavy boxes are pinned all around, and thrown in all directions.
+Scene PinnedHub(int boxes) {
+  Scene scene;
+  scene.bodies.push_back(test::Box(1, {20, 20, 1}));
+  scene.positions.emplace_back(0, 0, 0);
+  test::Random random(9);
+  for (int i = 1; i <= boxes; ++i) {
+    scene.bodies.push_back(test::Box(10, {1, 1, 1}));
+    scene.bodies.back().impulse = random.Vector(10);
+    const Vector3d at(random.Uniform(-9, 9), random.Uniform(-9, 9), 1);
+    scene.positions.push_back(at);
+    test::AddPin(&scene, i, 0, at - Vector3d(0, 0, 0.5));
+  }
+  return scene;
+}
+
+// Joints alone are a linear system, which a step solves at once if it sees the whole hub.
+TEST(BlockSolver, AStepSolvesWhatSharesAHub) {
+  const Scene hub = PinnedHub(60);
+  Settings steps = test::ColouredSteps(200), sweeps = Coloured(200);
+  steps.tolerance = sweeps.tolerance = 1e-3;
+  const Solution by_steps = test::Solve(steps, hub), by_sweeps = test::Solve(sweeps, hub);
+  EXPECT_GT(by_steps.report.steps_accepted, 0);
+  EXPECT_LT(by_steps.report.residual_max, 1e-3);
+  EXPECT_LE(by_steps.report.sweeps, 3 * steps.k_gs);
+  EXPECT_GT(by_sweeps.report.sweeps, 10 * steps.k_gs);
 }
 
 // Shapes are numbered as they come, and pairs without a colour are sorted by them.

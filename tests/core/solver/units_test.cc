@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Units do not matter: a problem in other units of mass, or of length with Tuning::units_per_metre,
-// has the same answer, to the bit, as units are powers of two.
+// The unit of length does not matter: with Tuning::units_per_metre a problem in other units has the
+// same answer, to the bit, as units are powers of two. Masses: problem/properties_test.cc.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -46,42 +46,26 @@ Scene InUnits(const Scene& scene, double unit) {
   return other;
 }
 
-/// The scene with so many units of mass in a kilogram.
-Scene InMasses(Scene scene, double unit) {
-  for (Body& body : scene.bodies) {
-    body.inv_mass /= unit;
-    View(body.inv_inertia) /= unit;
-    View(body.impulse) *= unit;
-    View(body.angular_impulse) *= unit;
-  }
-  for (Row& row : scene.rows) {
-    row.compliance /= unit;
-    row.lo *= unit;
-    row.hi *= unit;
-  }
-  return scene;
-}
-
-/// A solution back in metres and kilograms.
-Solution Back(Solution solution, const Scene& scene, double unit, double mass) {
+/// A solution back in metres.
+Solution InMetres(Solution solution, const Scene& scene, double unit) {
   for (size_t i = 0; i < solution.x.size(); ++i) {
-    solution.x[i] /= mass * (OnlyTurns(scene.rows[i]) ? unit * unit : unit);
+    solution.x[i] /= OnlyTurns(scene.rows[i]) ? unit * unit : unit;
   }
   for (Velocity& velocity : solution.v) View(velocity.linear) /= unit;
   return solution;
 }
 
 /// Frame after frame with one solver, which remembers.
-void ExpectTheSameInUnits(const Scene& scene, Settings settings, double unit, double mass = 1) {
+void ExpectTheSameInUnits(const Scene& scene, Settings settings, double unit) {
   Solver in_metres(settings);
   settings.tuning.units_per_metre = unit;
   Solver in_units(settings);
-  const Scene other = InMasses(InUnits(scene, unit), mass);
+  const Scene other = InUnits(scene, unit);
   for (int frame = 0; frame < 3; ++frame) {
     const Solution expected = test::Solve(&in_metres, scene);
     const Solution solution = test::Solve(&in_units, other);
     ASSERT_TRUE(solution.report.ok());
-    ASSERT_TRUE(test::SameBits(Back(solution, scene, unit, mass), expected)) << "frame " << frame;
+    ASSERT_TRUE(test::SameBits(InMetres(solution, scene, unit), expected)) << "frame " << frame;
     EXPECT_EQ(solution.report.sweeps, expected.report.sweeps);
     EXPECT_EQ(solution.report.steps_accepted, expected.report.steps_accepted);
     EXPECT_EQ(solution.report.steps_restored, expected.report.steps_restored);
@@ -111,19 +95,6 @@ INSTANTIATE_TEST_SUITE_P(Every, Units, testing::Values(0.0078125, 2, 128));
 
 TEST_P(Units, DoNotChangeWhatComesOut) {
   for (const Scene& scene : Scenes()) ExpectTheSameInUnits(scene, Sweeps(), GetParam());
-}
-
-// whitened bodies have square roots of masses: exact for powers of four
-TEST(UnitsOfMass, DoNotChangeWhatComesOut) {
-  Settings weighed;
-  weighed.step_policy = StepPolicy::kWeighed;
-  weighed.max_sweeps = 10;
-  for (const double mass : {1.0 / 1024, 4.0, 0x1p20}) {
-    for (const Scene& scene : Scenes()) {
-      ExpectTheSameInUnits(scene, Sweeps(), 1, mass);
-      ExpectTheSameInUnits(scene, weighed, 128, mass);
-    }
-  }
 }
 
 TEST_P(Units, DoNotChangeWhichStepsAreTaken) {
