@@ -400,6 +400,8 @@ TEST(Islands, WithTwoCrowdedBodiesHaveTheBitsOfEachAloneToo) {
   std::vector<Scene> parts;
   for (std::uint64_t seed = 1; seed <= 9; ++seed) parts.push_back(TwinHubs(seed));
   ExpectIslandsAlone(parts, Coloured(10));
+  // some bodies are only seen as copies, and steps go back to where they were
+  ExpectIslandsAlone(parts, test::ColouredSteps(40));
 }
 
 }  // namespace
