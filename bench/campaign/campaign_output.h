@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "worlds/campaign.h"
@@ -31,6 +34,18 @@ std::string WorldsToJson(const bench::CampaignOptions& options,
 /// or of another Bullet than this one.
 bench::BulletRuns ReadBulletRuns(std::span<const std::string> files,
                                  const bench::CampaignOptions& options);
+
+/// What became of worlds in an earlier run, by seed and solver.
+using EarlierRuns = std::unordered_map<std::uint64_t, std::map<std::string, bench::Trial>>;
+
+/// Reads all runs from a file of WorldsToJson(), of this or another build, under these conditions
+/// or others. @throws Failure (kUsage) if it cannot be read, or is of other lengths.
+EarlierRuns ReadEarlierRuns(const std::string& path, const bench::CampaignOptions& options);
+
+/// How runs differ from earlier ones: by solver the geometric means of ratios, of the worlds whose
+/// bits differ, and how many are more than a tenth smaller or larger.
+std::string AgainstTable(std::span<const bench::WorldResult> results,
+                         std::span<const bench::Variant> variants, const EarlierRuns& earlier);
 
 /// Runs the worlds again with one thread on every SIMD target of this machine, and with two and
 /// three on the best; results that differ get a finding. Changes CAIRN_SIMD meanwhile.

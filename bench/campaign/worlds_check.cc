@@ -25,12 +25,9 @@ std::string ShrinkOne(const bench::CampaignOptions& options, const bench::WorldR
       shrunk.trial.joints, shrunk.seconds, shrunk.worst_frame, recorded ? "" : " (not recorded)");
   WriteFile(
       path + ".txt",
-      fmt::format("{}{}\ncairn worlds --seed {} --scale {} --seconds {} --solver {}{}{}{}{} "
-                  "--report\n",
+      fmt::format("{}{}\ncairn worlds --seed {} --scale {} --seconds {} --solver {}{} --report\n",
                   line, DescribeWorld(shrunk.world), result.seed, shrunk.world.scale,
-                  shrunk.seconds, solver.name, shrunk.world.locks ? " --locks" : "",
-                  shrunk.world.heavy ? " --heavy" : "", shrunk.world.crowded ? " --crowded" : "",
-                  shrunk.world.unit != 1 ? fmt::format(" --unit {}", shrunk.world.unit) : ""));
+                  shrunk.seconds, solver.name, bench::OptionsOf(shrunk.world)));
   return line;
 }
 

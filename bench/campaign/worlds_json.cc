@@ -7,7 +7,9 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "support/failure.h"
 #include "support/json_number.h"
@@ -90,14 +92,48 @@ bench::Trial TrialOf(const Json& json) {
   return trial;
 }
 
-std::vector<bench::Trial> BulletOf(const Json& world) {
-  std::vector<bench::Trial> trials;
-  for (const bench::Variant& variant : bench::BulletVariants()) {
-    for (const Json& solver : world.at("solvers")) {
-      if (solver.at("solver") == variant.name) trials.push_back(TrialOf(solver));
-    }
+/// By solver.
+std::map<std::string, bench::Trial> TrialsOf(const Json& world) {
+  std::map<std::string, bench::Trial> trials;
+  for (const Json& solver : world.at("solvers")) {
+    trials.insert_or_assign(solver.at("solver").get<std::string>(), TrialOf(solver));
   }
   return trials;
+}
+
+/// None if one is missing.
+std::vector<bench::Trial> BulletOf(const std::map<std::string, bench::Trial>& all) {
+  std::vector<bench::Trial> trials;
+  for (const bench::Variant& variant : bench::BulletVariants()) {
+    const auto found = all.find(variant.name);
+    if (found == all.end()) return {};
+    trials.push_back(found->second);
+  }
+  return trials;
+}
+
+/// Reads results of WorldsToJson(). @p read gets them; what it does not find is said to be no such
+/// result. @throws Failure (kUsage)
+template <class Read>
+void ReadResults(std::string_view option, const std::string& path, Read read) {
+  std::ifstream stream(path);
+  if (!stream) {
+    throw Failure(kUsage,
+                  fmt::format("{} '{}' cannot be read: {}", option, path, std::strerror(errno)));
+  }
+  try {
+    read(Json::parse(stream));
+  } catch (const Json::exception&) {
+    throw Failure(kUsage, fmt::format("{} '{}' is no result of cairn worlds --json", option, path));
+  }
+}
+
+void CheckLength(const Json& json, const bench::CampaignOptions& options, std::string_view option,
+                 const std::string& path) {
+  if (json.at("seconds") == options.trial.seconds) return;
+  throw Failure(
+      kUsage, fmt::format("{} '{}': its worlds are {} s long, these {} s; --seconds says how long",
+                          option, path, json.at("seconds").dump(), options.trial.seconds));
 }
 
 /// Worlds of another length, or another Bullet, say nothing.
@@ -108,18 +144,13 @@ void CheckContext(const Json& json, const bench::CampaignOptions& options,
   const auto expect = [&](bool holds, const std::string& what) {
     if (!holds) throw Failure(kUsage, fmt::format("--beside '{}': {}", path, what));
   };
-  expect(json.at("seconds") == options.trial.seconds,
-         fmt::format("its worlds are {} s long, these {} s; --seconds says how long",
-                     json.at("seconds").dump(), options.trial.seconds));
+  CheckLength(json, options, "--beside", path);
   expect(json.at("scale") == options.trial.world.scale, "its worlds have another --scale");
-  const auto expect_alike = [&](const char* option, bool ours) {
-    expect(json.value(option, false) == ours,
-           fmt::format("only its worlds, or only these, are of --{}", option));
-  };
   expect(json.value("unit", 1.0) == options.trial.world.unit, "its worlds have another --unit");
-  expect_alike("locks", options.trial.world.locks);
-  expect_alike("heavy", options.trial.world.heavy);
-  expect_alike("crowded", options.trial.world.crowded);
+  for (const bench::Condition& condition : bench::Conditions()) {
+    expect(json.value(condition.name, false) == options.trial.world.*condition.on,
+           fmt::format("only its worlds, or only these, are of --{}", condition.name));
+  }
   expect(
       there.at("version") == here.at("version") && there.at("precision") == here.at("precision"),
       fmt::format("it is of Bullet {} {}, this is {} {}", there.at("version").get<std::string>(),
@@ -133,24 +164,26 @@ bench::BulletRuns ReadBulletRuns(std::span<const std::string> files,
                                  const bench::CampaignOptions& options) {
   bench::BulletRuns runs;
   for (const std::string& path : files) {
-    std::ifstream stream(path);
-    if (!stream) {
-      throw Failure(kUsage,
-                    fmt::format("--beside '{}' cannot be read: {}", path, std::strerror(errno)));
-    }
-    try {
-      const Json json = Json::parse(stream);
+    ReadResults("--beside", path, [&](const Json& json) {
       CheckContext(json, options, path);
       for (const Json& world : json.at("worlds")) {
-        std::vector<bench::Trial> trials = BulletOf(world);
-        if (trials.size() == bench::BulletVariants().size()) {
-          runs.insert_or_assign(world.at("seed").get<std::uint64_t>(), std::move(trials));
-        }
+        std::vector<bench::Trial> trials = BulletOf(TrialsOf(world));
+        if (trials.empty()) continue;
+        runs.insert_or_assign(world.at("seed").get<std::uint64_t>(), std::move(trials));
       }
-    } catch (const Json::exception&) {
-      throw Failure(kUsage, fmt::format("--beside '{}' is no result of cairn worlds --json", path));
-    }
+    });
   }
+  return runs;
+}
+
+EarlierRuns ReadEarlierRuns(const std::string& path, const bench::CampaignOptions& options) {
+  EarlierRuns runs;
+  ReadResults("--against", path, [&](const Json& json) {
+    CheckLength(json, options, "--against", path);
+    for (const Json& world : json.at("worlds")) {
+      runs.insert_or_assign(world.at("seed").get<std::uint64_t>(), TrialsOf(world));
+    }
+  });
   return runs;
 }
 
@@ -158,15 +191,12 @@ std::string WorldsToJson(const bench::CampaignOptions& options,
                          std::span<const bench::WorldResult> results, const std::string& command) {
   Json worlds = Json::array();
   for (const bench::WorldResult& result : results) worlds.push_back(ToJson(result, options));
-  const Json json = {{"context", ToJson(DescribeContext(command))},
-                     {"seconds", options.trial.seconds},
-                     {"scale", options.trial.world.scale},
-                     {"locks", options.trial.world.locks},
-                     {"heavy", options.trial.world.heavy},
-                     {"crowded", options.trial.world.crowded},
-                     {"unit", options.trial.world.unit},
-                     {"audit_every", options.trial.audit_every},
-                     {"worlds", worlds}};
+  Json json = {{"context", ToJson(DescribeContext(command))}, {"seconds", options.trial.seconds},
+               {"scale", options.trial.world.scale},          {"unit", options.trial.world.unit},
+               {"audit_every", options.trial.audit_every},    {"worlds", worlds}};
+  for (const bench::Condition& condition : bench::Conditions()) {
+    json[condition.name] = options.trial.world.*condition.on;
+  }
   return json.dump(1) + "\n";
 }
 

@@ -25,9 +25,10 @@ namespace {
 /// What was typed behind the options of `cairn worlds`.
 struct WorldsWords {
   std::string seeds, seed, solvers = "cairn,cairn-sweeps,cairn-work,cairn-always", kinds;
-  std::string seconds = "5", scale = "1", unit = "1", jobs, json, shrink, beside, doubts = "0";
-  bool list = false, report = false, audit = false, bits = false, locks = false, heavy = false,
-       crowded = false;
+  std::string seconds = "5", scale = "1", unit = "1", jobs, json, shrink, beside, against,
+              doubts = "0";
+  bool list = false, report = false, audit = false, bits = false;
+  bench::WorldSeed conditions;
   OutputWords output;
 };
 
@@ -41,6 +42,8 @@ momentum  in free fall, relative drift above 1e-3 and 3 times Bullet's
 bits      --bits: other bits with other SIMD targets or more threads
 asleep    worlds in which all bodies fell asleep, of those in which they may
 bullet    the iterations of the world; fly: above 60 m/s; restless: with 10, not with 100
+against   --against: geometric means of ratios to before, of worlds with other bits, and in how many
+          it is more than a tenth smaller or larger; late: fastest body of the last quarter
 docs/worlds.md says more. Next: cairn worlds --seed N --report
 )";
 constexpr const char* kWorldsNotes =
@@ -108,16 +111,17 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.seeds = ParseSeeds(words);
   KeepKinds(words.kinds, &options.seeds);
   options.variants = ParseVariants(OwnSolverNames(SolverUser::kWorlds, words.solvers));
+  options.trial.world = words.conditions;
   options.trial.seconds =
       ParseNumber("--seconds", words.seconds, 0.01, 3600, "simulated seconds of each world");
   options.trial.world.scale =
       ParseNumber("--scale", words.scale, 0.01, 1, "the share of their size that worlds have");
   options.trial.audit_every = words.audit || words.report ? 1 : 10;
-  options.trial.world.locks = words.locks;
-  options.trial.world.heavy = words.heavy;
-  options.trial.world.crowded = words.crowded;
   options.trial.world.unit =
       ParseNumber("--unit", words.unit, 1e-3, 1e4, "units of length in a metre");
+  if (options.trial.world.unit != 1 && (words.conditions.played || words.conditions.moving)) {
+    throw Failure(kUsage, "--unit goes without --played and --moving, which are in metres");
+  }
   const int cores = std::max(1u, std::thread::hardware_concurrency());
   options.jobs = words.jobs.empty()
                      ? cores
@@ -148,6 +152,8 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   }
   const bench::CampaignOptions options = Check(words);
   const int doubts = ParseInt("--doubts", words.doubts, 0, 1'000'000, "runs that may fail");
+  EarlierRuns earlier;
+  if (!words.against.empty()) earlier = ReadEarlierRuns(words.against, options);
   if (!words.json.empty()) CheckWritable(words.json);
   if (!words.shrink.empty()) CheckFolder(words.shrink);
   WarnOfTarget();
@@ -161,6 +167,9 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
   }
   if (!words.report) fmt::print("{}\n", WorldTables(results, options.variants, words.bits));
   fmt::print("{}", FailedWorlds(results, options.variants));
+  if (!words.against.empty()) {
+    fmt::print("\n{}", AgainstTable(results, options.variants, earlier));
+  }
   if (!words.output.quiet && !words.report) fmt::print("{}", kHowToRead);
   if (!words.json.empty()) WriteFile(words.json, WorldsToJson(options, results, command));
   if (!words.shrink.empty()) {
@@ -193,18 +202,18 @@ Command AddWorldsCommand(CLI::App* app) {
   add("--beside", &words->beside,
       "Takes Bullet's runs from results of --json of the same worlds, where they have them",
       "FILE,...");
+  add("--against", &words->against,
+      "Says how runs differ from those in results of --json, of another build or other conditions",
+      "FILE");
   add("--shrink", &words->shrink,
       "Make failures smaller, and write them and their worst frame into a folder", "DIR");
-  worlds->add_flag("--locks", words->locks,
-                   "Bodies with locked axes, as games in a plane have them; no momentum then");
-  worlds->add_flag("--heavy", words->heavy,
-                   "Loads on ropes, chains and bridges are 10 to 10,000 times as heavy");
+  for (const bench::Condition& condition : bench::Conditions()) {
+    worlds->add_flag("--" + condition.name, words->conditions.*condition.on, condition.help);
+  }
   add("--unit", &words->unit,
       "Units of length in a metre, 100 where worlds count in centimetres; without events; default "
       "1",
       "X");
-  worlds->add_flag("--crowded", words->crowded,
-                   "Hubs touch or hold up to 500 bodies instead of 50");
   worlds->add_flag("--list", words->list, "Names the kinds of worlds");
   worlds->add_flag("--report", words->report, "Shows each world in detail; best with --seed");
   worlds->add_flag("--audit", words->audit, "Audits every substep, not every tenth");

@@ -5,46 +5,20 @@
 #include <cmath>
 #include <sstream>
 
+#include "worlds/conditions/locks.h"
+#include "worlds/conditions/units.h"
 #include "worlds/draft.h"
-#include "worlds/units.h"
 
 namespace cairn::bench {
 namespace {
 
 // Random numbers of their own for rules, world and steps: one does not change with another.
 constexpr std::uint64_t kRuleStream = 0x5bd1e9955bd1e995u, kDraftStream = 0x27d4eb2f165667c5u,
-                        kStepStream = 0x9e3779b185ebca87u, kLockStream = 0xc2b2ae3d27d4eb4fu;
+                        kStepStream = 0x9e3779b185ebca87u, kLockStream = 0xc2b2ae3d27d4eb4fu,
+                        kPlayerStream = 0xd6e8feb86659fd93u, kGroundStream = 0xa0761d6478bd642fu;
 
 std::uint64_t Stream(std::uint64_t seed, std::uint64_t stream) {
   return Random(seed ^ stream).Bits();
-}
-
-/// What a body may not do.
-struct Locks {
-  btVector3 linear, angular;
-};
-
-/// Of a game seen from the side, of one seen from above with balls that roll and without, of
-/// characters, of what may lean in one plane.
-Locks DrawLocks(Random* random) {
-  static const Locks kLocks[] = {{{1, 1, 0}, {0, 0, 1}},
-                                 {{1, 0, 1}, {0, 1, 0}},
-                                 {{1, 0, 1}, {1, 1, 1}},
-                                 {{1, 1, 1}, {0, 0, 0}},
-                                 {{1, 1, 1}, {0, 0, 1}}};
-  return kLocks[std::min(4, static_cast<int>(random->Within(0, 5)))];
-}
-
-/// The same for all bodies, for half of them, or for each its own.
-void LockAxes(Random random, World* world) {
-  const double draw = random.Within(0, 1);
-  Locks locks = DrawLocks(&random);
-  for (btRigidBody* body : world->dynamic_bodies()) {
-    if (draw > 0.8) locks = DrawLocks(&random);
-    if (draw > 0.6 && random.Within(0, 1) < 0.5) continue;
-    body->setLinearFactor(locks.linear);
-    body->setAngularFactor(locks.angular);
-  }
 }
 
 }  // namespace
@@ -52,7 +26,10 @@ void LockAxes(Random random, World* world) {
 const Kind& KindOf(std::uint64_t seed) { return Kinds()[seed % Kinds().size()]; }
 
 RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
-    : kind_(KindOf(seed.seed)), world_(solver), steps_(Stream(seed.seed, kStepStream)) {
+    : kind_(KindOf(seed.seed)),
+      world_(solver),
+      steps_(Stream(seed.seed, kStepStream)),
+      seed_(seed) {
   Random random(Stream(seed.seed, kRuleStream));
   rules_ = DrawRules(&random);
   Draft draft(&world_, &rules_, Stream(seed.seed, kDraftStream), seed.scale,
@@ -65,14 +42,15 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
     // momentum is watched there, and only what solvers do to it
     for (btRigidBody* body : world_.dynamic_bodies()) body->setFlags(0);
   }
-  heavy_ = seed.heavy;
-  crowded_ = seed.crowded;
-  locks_ = seed.locks;
-  if (locks_) LockAxes(Random(Stream(seed.seed, kLockStream)), &world_);
-  unit_ = seed.unit;
-  if (unit_ != 1) {
+  const auto random_of = [&seed](std::uint64_t stream) {
+    return Random(Stream(seed.seed, stream));
+  };
+  if (seed.locks) LockAxes(random_of(kLockStream), &world_);
+  if (seed.played) player_.emplace(random_of(kPlayerStream));
+  if (seed.moving) moving_ground_.emplace(random_of(kGroundStream), &world_);
+  if (seed.unit != 1) {
     // what happens later is in metres
-    ChangeUnits(unit_, &world_);
+    ChangeUnits(seed.unit, &world_);
     return;
   }
   events_ = std::move(draft.events());
@@ -88,6 +66,8 @@ void RandomWorld::Step() {
   }
   double step = 1 / rules_.rate;
   if (rules_.uneven > 1) step *= std::pow(rules_.uneven, steps_.Within(-1, 1));
+  if (player_) player_->Act(step, &world_);
+  if (moving_ground_) moving_ground_->MoveTo(time_ + step);
   world_.SetTimeStep(static_cast<btScalar>(step));
   world_.Step();
   time_ += step;
@@ -108,10 +88,10 @@ std::string RandomWorld::Describe() const {
   text << kind_.name << ": " << kind_.description << "; " << world_.dynamic_bodies().size()
        << " bodies of " << lightest << " to " << heaviest << " kg, " << world_.joints().size()
        << " joints; " << bench::Describe(rules_);
-  if (locks_) text << ", locked axes";
-  if (heavy_) text << ", heavy loads";
-  if (crowded_) text << ", crowded hubs";
-  if (unit_ != 1) text << ", " << unit_ << " units of length in a metre";
+  for (const Condition& condition : Conditions()) {
+    if (seed_.*condition.on) text << ", " << condition.words;
+  }
+  if (seed_.unit != 1) text << ", " << seed_.unit << " units of length in a metre";
   if (!events_.empty()) text << " at";
   for (const Event& event : events_) text << ' ' << event.time;
   if (!events_.empty()) text << " s";

@@ -2,22 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "worlds/conditions/moving_ground.h"
+#include "worlds/conditions/player.h"
 #include "worlds/kinds/kinds.h"
+#include "worlds/world_seed.h"
 
 namespace cairn::bench {
-
-/// Which world: the same bits each time.
-struct WorldSeed {
-  std::uint64_t seed = 0;
-  double scale = 1;      ///< In (0, 1]: smaller worlds of the same kind, to shrink one that fails.
-  bool locks = false;    ///< Bodies have locked axes; all else is as without.
-  bool heavy = false;    ///< Loads of ropes and bridges are 10 to 10,000 times as heavy, likewise.
-  bool crowded = false;  ///< Ten times as many bodies may touch or hang on a hub.
-  double unit = 1;       ///< Units of length in a metre, see ChangeUnits(); without events.
-};
 
 /// The kind that a seed is of.
 const Kind& KindOf(std::uint64_t seed);
@@ -51,9 +45,10 @@ class RandomWorld {
   Random steps_;  ///< for lengths of steps
   std::vector<Event> events_;
   size_t next_event_ = 0;
+  std::optional<Player> player_;
+  std::optional<MovingGround> moving_ground_;
   double time_ = 0;
-  bool locks_ = false, heavy_ = false, crowded_ = false;
-  double unit_ = 1;
+  WorldSeed seed_;
 };
 
 }  // namespace cairn::bench

@@ -80,6 +80,27 @@ class WorldsTest(CairnTest):
         os.remove(self.path("old.json"))
         self.assertIn("cannot be read", refusal("--seeds", "0:2"))
 
+    def test_runs_are_compared_with_earlier_ones(self):
+        short = ("--seconds", "0.3", "--solver", "cairn")
+        self.worlds("--seeds", "0:20", *short, "--json", self.path("old.json"))
+        same = self.worlds("--seeds", "0:20", *short, "--against", self.path("old.json"))
+        self.assertRegex(same, r"(?m)^cairn +20 +0 +- +-")
+        other = self.worlds("--seeds", "0:40", *short, "--heavy", "--against",
+                            self.path("old.json"))
+        changed = re.search(r"(?m)^cairn +20 +(\d+) +([0-9.]+) +(\d+)/(\d+)", other)
+        self.assertLess(int(changed[1]), 20)
+        self.assertLessEqual(int(changed[3]) + int(changed[4]), int(changed[1]))
+        self.assertGreater(float(changed[2]), 0)
+        said = self.refused(USAGE, "worlds", "--seeds", "0:2", "--against", self.path("old.json"))
+        self.assertIn("0.3 s long", said)
+
+    def test_conditions_are_said_and_those_in_metres_have_no_units(self):
+        for name, words in (("played", "somebody plays"), ("moving", "moving ground")):
+            text = self.worlds("--seed", BRIDGE, "--report", "--seconds", "0.2", "--" + name)
+            self.assertIn(", " + words, text)
+            said = self.refused(USAGE, "worlds", "--seed", "1", "--unit", "100", "--" + name)
+            self.assertIn("--" + name, said)
+
     def test_doubts_are_a_number(self):
         said = self.refused(USAGE, "worlds", "--seeds", "0:2", "--doubts", "few")
         self.assertIn("--doubts", said)

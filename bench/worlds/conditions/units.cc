@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "worlds/units.h"
+#include "worlds/conditions/units.h"
 
 #include <set>
 
