@@ -213,8 +213,10 @@ void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
     const Eigen::Vector3d torque_spin =
         ToEigen(rigids_[raised.body]->getTotalTorque() *
                 rigids_[raised.body]->getInvInertiaTensorWorld() * time_step_);
-    const Eigen::Vector3d change = Eigen::Matrix3d(raised.response) * torque_spin - torque_spin -
-                                   Eigen::Matrix3d(raised.damping) * ToEigen(motion.spin);
+    // what gyroscopic terms turn a spin into is spin as well
+    const Eigen::Vector3d spin = ToEigen(motion.spin + motion.external_spin) - torque_spin;
+    const Eigen::Vector3d change = Eigen::Matrix3d(raised.response) * torque_spin - torque_spin +
+                                   Eigen::Vector3d(raised.Damp(part, spin));
     for (int k = 0; k < 3; ++k) motion.external_spin[k] += static_cast<btScalar>(change[k]);
   }
 }

@@ -44,6 +44,8 @@ class BlockSteps {
   /// and what reading, packing, so many sweeps, and writing do. The first is a guess from the last
   /// frames while the graph is not known.
   double PriceAlone(int group, int island, int factorisations);
+  /// Each step there condenses joints, which is a factorisation more; see pays_for_condensing().
+  bool CondensesJoints(int island) { return MemoryOf(island)->pays_for_condensing(); }
   double RestAlone(int island, int sweeps) const;
   /// The same if each row took as long as one of sixteen lanes: what it is to a large island, and
   /// no less for a small one, whose steps matter as much.
@@ -55,8 +57,10 @@ class BlockSteps {
   int SweepsOfEffort(int island, int iterations) const;
   bool HasJoints(int island) const { return frame_->plan().islands()[island].joints; }
   /// The largest Body::strain on an island whose joints have no limits: steps on those throw bodies
-  /// at times.
+  /// at times. While steps are weighed; else 0.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
+  /// Likewise, whether a joint there holds a body and one that is a hundred times lighter.
+  bool IsLoaded(int island) const { return !loaded_.empty() && loaded_[island] != 0; }
   /// How many factorisations the next step on an island may make.
   void Limit(int island, int factorisations) { limits_[island] = factorisations; }
   /// Takes a step on some islands of a group.
@@ -87,7 +91,9 @@ class BlockSteps {
   Precisions PrecisionsOf(std::span<const int> islands) const;
   IslandMemory* MemoryOf(int island);
   void ReadPlan();
-  void ReadStrains();
+  /// Finds strains_ and loaded_.
+  void FindPull();
+  void FindLoaded();
   void FindLimited();
   void ReadIslands();
   void CountLines();
@@ -149,6 +155,7 @@ class BlockSteps {
   Array<int> latest_shape_;    ///< by island: its place in there
   Array<char> limited_;        ///< by island: some row has a limit; if any body is strained
   Array<double> strains_;      ///< by island, none if no body is strained
+  Array<char> loaded_;         ///< by island, none if none is
   Array<std::uint64_t> keys_;  ///< by island
   Array<IslandMemory*> memory_of_island_;
   Array<IslandStep> islands_, islands_now_;

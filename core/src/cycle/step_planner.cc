@@ -20,9 +20,13 @@ constexpr double kMostOfScalar = 1.15, kMostOfScalarWithJoints = 1.6;
 /// By so much more where there was a step in the last frame: steps that come and go do harm.
 /// Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
-/// From which Body::strain on sweeps leave joints that part before they pull, whatever a step costs
-/// in terms of row by row. From half of it on dolls would be a fifth dearer.
+/// From which Body::strain on, and where a joint holds a load, sweeps leave joints that part before
+/// they pull: steps are taken whatever they cost in terms of row by row. From half of it on dolls
+/// would be a fifth dearer.
 constexpr double kStrained = 1;
+/// From which on nothing but raised inertia keeps the integrator stable. It needs a tension that is
+/// right in each frame, and sweeps lose it within few: whether they are faster is not asked.
+constexpr double kUnstable = 4;
 /// Within so many tolerances sweeps do the rest.
 constexpr double kNear = 10;
 /// Error of joints that a step meets at most where there was none in the last frame [m/s] or
@@ -139,19 +143,22 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const bool near = largest <= kNear * frame_->settings.tolerance;
   // what sweeps have left joints open by for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
-  const bool strained = steps_->strain(i) > kStrained;
+  const bool strained = steps_->strain(i) > kStrained || steps_->IsLoaded(i);
   const bool thrown = steps_->HasJoints(i) && !odds.stepped_most(bodies) &&
                       largest > (strained ? kMostThrownStrained : kMostThrown);
-  if (near || thrown || !(odds.pays() || odds.wants_trial())) return NoStep::kSweepsFaster;
+  const bool pays = steps_->strain(i) > kUnstable || odds.pays() || odds.wants_trial();
+  if (near || thrown || !pays) return NoStep::kSweepsFaster;
   const int sweeps = frame_->settings.max_sweeps;
   const double of_scalar = steps_->HasJoints(i) ? kMostOfScalarWithJoints : kMostOfScalar;
   const double share = steps_->HasJoints(i) ? kMostOfRestWithJoints : kMostOfRest;
   const double of_rest = share * steps_->RestInWholeLines(i, sweeps);
   const double left = of_scalar * steps_->ScalarAlone(i, sweeps) - steps_->RestAlone(i, sweeps);
   const double most_price = strained ? of_rest : std::min(of_rest, left);
+  const int condensing = !strained && steps_->CondensesJoints(i) ? 1 : 0;
   const auto fits = [&](int factorisations) {
     const bool more = odds.stepped_of_late() && (factorisations == 1 || steps_->HasJoints(i));
-    return steps_->PriceAlone(g, i, factorisations) <= (more ? kMoreOnceStepped : 1) * most_price;
+    return steps_->PriceAlone(g, i, factorisations + condensing) <=
+           (more ? kMoreOnceStepped : 1) * most_price;
   };
   int most = frame_->settings.k_sm;
   while (most > 0 && !fits(most)) most /= 2;

@@ -21,6 +21,9 @@ constexpr double kThreshold = 2;
 constexpr double kHold = 0.9;
 /// Of spin, damped on axes that are raised without end; without it they gain a little energy.
 constexpr double kDamping = 0.02;
+/// A body that turns this far in a step [rad] is no longer pulled as the tension of the last one
+/// says. From there on its spin is damped down to the momentum that it has without raised inertia.
+constexpr double kFarTurn = 0.2;
 /// Bodies that are this much below the threshold are not remembered.
 constexpr double kRemember = 0.5;
 /// What the mean of tensions that sweeps alone left keeps of itself in a step.
@@ -137,6 +140,7 @@ void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies,
     body.strain = time_step * time_step * std::max(most, memory->held_ratio);
     if (body.strain <= kThreshold) {
       View(memory->held) *= kHold;
+      memory->kept = {1, 1, 1};
     } else {
       strained_.push_back({i, memory});
     }
@@ -155,23 +159,29 @@ void GeometricStiffness::Raise(double time_step, const Strained& strained, const
   memory.held = k;
   memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
 
-  const Eigen::Vector3d ratio = time_step * time_step * k.cwiseProduct(inv_moments);
-  body.strain = ratio.maxCoeff();
+  const Eigen::Array3d strain = time_step * time_step * k.cwiseProduct(inv_moments).array();
+  body.strain = strain.maxCoeff();
+  const Eigen::Vector3d kept = (1 + (strain - kThreshold).max(0)).inverse().matrix();
+  const Eigen::Vector3d carried = kept.cwiseQuotient(View(memory.kept)).cwiseMin(1);
+  memory.kept = kept;
   if (body.strain <= kThreshold) return;
-  const Eigen::Vector3d kept =
-      (1 + (ratio.array() - kThreshold).max(0)).inverse().matrix();  // I / raised I
   const MatrixMaker of_axes(axes);
   body.inv_inertia = of_axes.Make(inv_moments.cwiseProduct(kept));
-  const Matrix3 response = of_axes.Make(kept);
-  const Eigen::Matrix3d damping = kDamping * (Eigen::Matrix3d::Identity() - View(response));
-  raised_.push_back({strained.body, damping, response});
+  raised_.push_back({strained.body, of_axes.Make(kept), of_axes.Make(carried)});
+}
+
+Vector3 GeometricStiffness::Raised::Damp(double time_step, const Vector3& spin) const {
+  const Eigen::Vector3d all = View(spin), w = View(carried) * all, lent = w - View(response) * w;
+  const double turn = time_step / kFarTurn;
+  const double share = std::min(1.0, kDamping + turn * turn * lent.squaredNorm());
+  return w - share * lent - all;
 }
 
 void GeometricStiffness::Apply(double time_step, std::span<Body> bodies,
                                std::span<const char> jointed) {
   for (const Raised& raised : RaiseInertia(time_step, bodies, jointed)) {
-    auto spin = View(bodies[raised.body].velocity.angular);
-    spin -= (View(raised.damping) * spin).eval();
+    Vector3& spin = bodies[raised.body].velocity.angular;
+    View(spin) += View(raised.Damp(time_step, spin));
   }
 }
 

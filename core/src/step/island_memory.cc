@@ -88,8 +88,10 @@ void IslandMemory::SawJoints(const StepResult& result) {
   if (joint_level_ == 0) {
     if (joint_pause_ > 0) --joint_pause_;
     if (joint_pause_ == 0 && !(result.solved_joint_speed <= kMostJointSpeed)) joint_level_ = 1;
+    joints_answered_ = false;
     return;
   }
+  joints_answered_ = true;
   const bool redundant = result.joint_speed <= kCondensed * result.solved_joint_speed;
   const bool small = result.solved_joint_speed <= kCalm * kMostJointSpeed;
   calm_steps_ = small ? calm_steps_ + 1 : 0;

@@ -42,6 +42,10 @@ class IslandMemory : public detail::Placed {
   /// enough, softened, too.
   void SawJoints(const StepResult& result);
   bool condenses_joints() const { return joint_level_ > 0; }
+  /// Condensing costs a factorisation more in each step. The first one only asks whether joints are
+  /// redundant, every 60 steps or less often: an island that has no room for it is to ask anyway,
+  /// or it would never get a step again.
+  bool pays_for_condensing() const { return condenses_joints() && joints_answered_; }
 
   /// The last factor that was priced here.
   const FactorSize& factor_size() const { return factor_size_; }
@@ -74,6 +78,7 @@ class IslandMemory : public detail::Placed {
   /// How much is done about redundant joints, steps in a row without need for it, and steps until
   /// they are looked at again.
   int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = kLeastJointPause;
+  bool joints_answered_ = false;  ///< a step has condensed them since the level was 0
 };
 
 }  // namespace cairn

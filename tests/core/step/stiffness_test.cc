@@ -96,6 +96,47 @@ TEST(Stiffness, LeavesBodiesWithoutJointsAlone) {
   EXPECT_TRUE(stiffness.empty());
 }
 
+/// Share of its momentum about x, as a solver sees it, that a link has from a spin [rad/s] before.
+double MomentumOf(double spin, const GeometricStiffness::Raised& raised, const Matrix3& before,
+                  const Matrix3& after) {
+  const double change = raised.Damp(kStep, {spin, 0, 0}).x();
+  return (spin + change) / spin * before(0, 0) / after(0, 0);
+}
+
+// Spin that a body has when its inertia rises keeps the momentum it had. While the inertia stays
+// raised, slow spin keeps nearly all of what it has then, and fast spin is left with what the body
+// has without: so what stops a body is never thrown by weight it was lent.
+TEST(Stiffness, LendsSpinNoMomentum) {
+  const Scene scene = test::HangingChain(3, 1000);
+  GeometricStiffness stiffness;
+  SolveAndLearn(scene, &stiffness);
+  const Matrix3 whole = scene.bodies[0].inv_inertia;
+  constexpr double kSlow = 0.1, kFast = 1 / kStep;  // [rad/s]: a rad in a step
+  for (const bool rises : {true, false}) {
+    std::vector<Body> bodies = scene.bodies;
+    const auto raised = stiffness.RaiseInertia(kStep, bodies);
+    ASSERT_FALSE(raised.empty());
+    ASSERT_EQ(raised[0].body, 0);
+    const Matrix3 after = bodies[0].inv_inertia;
+    const double lent = whole(0, 0) / after(0, 0);
+    ASSERT_GT(lent, 20);
+    const double slow = MomentumOf(kSlow, raised[0], whole, after),
+                 fast = MomentumOf(kFast, raised[0], whole, after);
+    if (rises) {
+      EXPECT_LT(slow, 1 + 1e-9);
+      EXPECT_GT(slow, 0.97);
+      EXPECT_LT(fast, 1 + 1e-9);
+    } else {
+      EXPECT_LT(slow, 0.981 * lent);
+      EXPECT_GT(slow, 0.97 * lent);
+      EXPECT_NEAR(fast, 1, 1e-9);
+    }
+    // about its own axis nothing is raised
+    const Vector3 along = raised[0].Damp(kStep, {0, 0, kFast});
+    EXPECT_NEAR(View(along).norm(), 0, 1e-9 * kFast);
+  }
+}
+
 TEST(Stiffness, FadesWhenTheLoadIsGone) {
   GeometricStiffness stiffness;
   const Scene loaded = test::HangingChain(3, 100), free = test::HangingChain(3, 1);
@@ -146,9 +187,10 @@ TEST(Stiffness, DampsTheSpinOfRaisedAxesALittle) {
   Scene scene = test::HangingChain(3, 1e4);
   GeometricStiffness stiffness;
   SolveAndLearn(scene, &stiffness);
-  for (Body& body : scene.bodies) body.velocity.angular = {1, 1, 1};
+  Raised(scene, &stiffness);  // as it rises spin keeps its momentum: from the next step on
+  for (Body& body : scene.bodies) body.velocity.angular = {0.1, 0.1, 1};
   stiffness.Apply(kStep, scene.bodies);
-  EXPECT_NEAR(scene.bodies[0].velocity.angular.x(), 0.98, 0.001);
+  EXPECT_NEAR(scene.bodies[0].velocity.angular.x() / 0.1, 0.98, 0.001);
   EXPECT_NEAR(scene.bodies[0].velocity.angular.z(), 1, 1e-6);
 }
 
@@ -201,10 +243,11 @@ void Bound(double lo, double hi, Scene* scene) {
   for (Row& row : scene->rows) row.lo = lo, row.hi = hi;
 }
 
-// Three links are so few that a step would take longer than all else, and heavy loads tear them.
-TEST(Stiffness, HasStepsTakenWhereItStrains) {
-  const auto steps = [](double strain, double lo, double hi) {
-    Scene scene = test::HangingChain(3, 1000);
+// Three links are so few that a step would take longer than all else, and heavy loads tear them:
+// before they strain, too.
+TEST(Stiffness, HasStepsTakenWhereItStrainsOrHoldsALoad) {
+  const auto steps = [](double strain, double lo, double hi, double load = 50) {
+    Scene scene = test::HangingChain(3, load);
     Bound(lo, hi, &scene);
     for (Body& body : scene.bodies) body.strain = strain;
     Settings settings{.max_sweeps = 10, .tolerance = 1e-4, .step_policy = StepPolicy::kWeighed};
@@ -218,6 +261,8 @@ TEST(Stiffness, HasStepsTakenWhereItStrains) {
   EXPECT_GT(steps(5, -kInfinity, kInfinity), 10);
   EXPECT_GT(steps(5, -1e6, 1e6), 10) << "as motors";
   EXPECT_EQ(steps(5, -1e6, kInfinity), 0) << "as limits";
+  EXPECT_GT(steps(0, -kInfinity, kInfinity, 200), 10);
+  EXPECT_EQ(steps(0, -1e6, kInfinity, 200), 0) << "as limits";
 }
 
 TEST(Stiffness, CountsWhatMayBreakAndNoLimits) {

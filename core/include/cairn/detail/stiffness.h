@@ -36,15 +36,20 @@ double ShareOfErp(double strain);
 /// After Andrews, Teichmann, Kry, "Geometric stiffness for real-time constrained multibody
 /// dynamics", 2017, and Tournier, Nesme, Gilles, Faure, "Stable constrained dynamics", 2015. Other
 /// than there the threshold is twice as careful, what was needed fades over some steps instead of
-/// ending at once, only tension counts, not compression, and errors are taken back more slowly
-/// where bodies are strained, see ShareOfErp().
+/// ending at once, only tension counts, not compression, spin gains no momentum as inertia rises
+/// and is damped the more the faster it is, and errors are taken back more slowly where bodies are
+/// strained, see ShareOfErp().
 class GeometricStiffness {
  public:
   /// A body whose inertia was raised.
   struct Raised {
     int body;          ///< Its place.
-    Matrix3 damping;   ///< Its spin changes by -damping * spin over this step.
     Matrix3 response;  ///< What torques change its spin by, relative to before.
+    Matrix3 carried;   ///< What is left of its spin where inertia was raised since the last step.
+
+    /// What its spin changes by over this step, before any impulse [rad/s]. Raised inertia would
+    /// lend weight to spin that it did not have when it came about, and throw what stops it.
+    Vector3 Damp(double time_step, const Vector3& spin) const;
   };
 
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
@@ -76,12 +81,13 @@ class GeometricStiffness {
   /// Of a body, by its id or place.
   struct Memory {
     std::uint64_t key = 0;
-    int place = 0;           ///< of the body in the last problem
-    Matrix3 stiffness = {};  ///< K [N m], world axes
-    Vector3 held = {};       ///< about principal axes [N m]
-    double held_ratio = 0;   ///< the largest of these over moments
-    double inv_mass = 0;     ///< who it is
-    double inv_inertia = 0;  ///< sum of its inverse moments, not lowered
+    int place = 0;             ///< of the body in the last problem
+    Matrix3 stiffness = {};    ///< K [N m], world axes
+    Vector3 held = {};         ///< about principal axes [N m]
+    double held_ratio = 0;     ///< the largest of these over moments
+    Vector3 kept = {1, 1, 1};  ///< moments over raised moments, in the last step
+    double inv_mass = 0;       ///< who it is
+    double inv_inertia = 0;    ///< sum of its inverse moments, not lowered
     bool seen = false;
   };
   /// A body that may be above the threshold, and what is remembered of it.
