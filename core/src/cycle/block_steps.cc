@@ -80,18 +80,15 @@ void BlockSteps::Begin(const CycleFrame& frame) {
 
 void BlockSteps::FindPull() {
   FindLoaded();
-  if (loaded_.empty() && !frame_->strained()) return;
-  FindLimited();
-  for (size_t i = 0; i < loaded_.size(); ++i) {
-    if (limited_[i] != 0) loaded_[i] = 0;
-  }
   if (!frame_->strained()) return;
+  FindLimited();
   const std::span<const int> island_of_body = frame_->plan().island_of_body();
   strains_.assign(frame_->plan().islands().size(), 0);
   for (size_t i = 0; i < problem_->bodies.size(); ++i) {
     const int island = island_of_body[i];
-    if (island < 0 || limited_[island] != 0) continue;
-    strains_[island] = std::max(strains_[island], problem_->bodies[i].strain);
+    const double strain = problem_->bodies[i].strain;
+    if (island < 0 || (limited_[island] != 0 && strain <= kUnstable)) continue;
+    strains_[island] = std::max(strains_[island], strain);
   }
 }
 

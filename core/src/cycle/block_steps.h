@@ -56,8 +56,10 @@ class BlockSteps {
   /// many, less a margin; at least those, and at most twice as many.
   int SweepsOfEffort(int island, int iterations) const;
   bool HasJoints(int island) const { return frame_->plan().islands()[island].joints; }
-  /// The largest Body::strain on an island whose joints have no limits: steps on those throw bodies
-  /// at times. While steps are weighed; else 0.
+  /// Body::strain from which on nothing but raised inertia keeps the integrator stable.
+  static constexpr double kUnstable = 4;
+  /// The largest Body::strain on an island, while steps are weighed; else 0. Where joints have
+  /// limits, only if it is above kUnstable: steps on those throw bodies at times.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// Likewise, whether a joint there holds a body and one that is a hundred times lighter.
   bool IsLoaded(int island) const { return !loaded_.empty() && loaded_[island] != 0; }

@@ -3,8 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <span>
 
-#include "cairn/joint.h"
+#include "cairn/contact_problem.h"
 
 namespace cairn {
 
@@ -44,23 +45,50 @@ inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
   });
 }
 
+/// The same for two rows, where bodies cannot move across them: a row that moves nobody is left
+/// out, as in games in a plane.
+inline bool PullInPlane(const Joint& joint, const JointRow* rows, int first,
+                        std::span<const Body> bodies) {
+  constexpr double kLocked = 1e-3;  // share of an axis that is left
+  if ((joint.angular >> first & 3) != 0) return false;
+  for (int row = first; row < first + 2; ++row) {
+    if (!IsTwoSided(joint, rows, row)) return false;
+  }
+  const bool of_a = joint.body_a != kWorld || joint.opposite;
+  const auto vector = [&](int i) {
+    const float(&l)[3] = of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
+    return Eigen::Vector3d(l[0], l[1], l[2]);
+  };
+  const Eigen::Vector3d axes[] = {vector(0), vector(1), vector(0).cross(vector(1))};
+  const auto locked = [&](int body) {
+    if (body == kWorld || bodies[body].inv_mass <= 0) return true;
+    const Eigen::Vector3d factor(bodies[body].linear_factor);
+    return factor.cwiseProduct(axes[2]).norm() < kLocked;
+  };
+  return AreAxes([&](int i) { return axes[i]; }) && locked(joint.body_a) && locked(joint.body_b);
+}
+
 /// Three rows that pull at a point and have no bounds, so that they hold it.
 inline bool HoldPoint(const Joint& joint, const JointRow* rows, int first) {
   return (joint.bounded >> first & 7) == 0 && PullAtPoint(joint, rows, first);
 }
 
-/// Three rows of a joint that follow each other, as columns.
+/// Three rows of a joint that follow each other, as columns, or two and a third of zeros.
 struct RowTriple {
   Eigen::Matrix3d linear_a, angular_a, linear_b, angular_b;
 };
 
-/// @param rows  of the joint; @param first  the first of the three
-inline RowTriple ReadTriple(const Joint& joint, const JointRow* rows, int first) {
+/// @param rows  of the joint; @param first  the first of them
+inline RowTriple ReadTriple(const Joint& joint, const JointRow* rows, int first, int count = 3) {
   const auto vector = [](const float(&from)[3]) {
     return Eigen::Vector3d(from[0], from[1], from[2]);
   };
   RowTriple triple;
-  for (int k = 0; k < 3; ++k) {
+  for (Eigen::Matrix3d* of :
+       {&triple.linear_a, &triple.angular_a, &triple.linear_b, &triple.angular_b}) {
+    of->setZero();
+  }
+  for (int k = 0; k < count; ++k) {
     const JointRow& row = rows[first + k];
     triple.linear_a.col(k) = vector(row.linear_a);
     triple.angular_a.col(k) = vector(row.angular_a);
@@ -68,6 +96,12 @@ inline RowTriple ReadTriple(const Joint& joint, const JointRow* rows, int first)
     triple.angular_b.col(k) = vector(row.angular_b);
   }
   return triple;
+}
+
+/// The part in their plane of the arm of two such rows.
+inline Eigen::Vector3d ArmInPlane(const Eigen::Matrix3d& linear, const Eigen::Matrix3d& angular) {
+  const Eigen::Vector3d across = linear.col(0).cross(linear.col(1));
+  return angular.col(1).dot(across) * linear.col(0) - angular.col(0).dot(across) * linear.col(1);
 }
 
 /// The arm r of three rows l_i . v + (r x l_i) . omega.

@@ -17,16 +17,13 @@ constexpr double kMostOfRest = 1.5, kMostOfRestWithJoints = 1.0;
 /// And all of it together so many times what sequential impulses row by row do. With more of both
 /// wild chains at 30 Hz take steps that tear them.
 constexpr double kMostOfScalar = 1.15, kMostOfScalarWithJoints = 1.6;
-/// By so much more where there was a step in the last frame: steps that come and go do harm.
-/// Without joints that is for one factorisation.
+/// By so much more where there was a step in the last frame, since steps that come and go do harm,
+/// and where joints pull. Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
 /// From which Body::strain on, and where a joint holds a load, sweeps leave joints that part before
 /// they pull: steps are taken whatever they cost in terms of row by row. From half of it on dolls
 /// would be a fifth dearer.
 constexpr double kStrained = 1;
-/// From which on nothing but raised inertia keeps the integrator stable. It needs a tension that is
-/// right in each frame, and sweeps lose it within few: whether they are faster is not asked.
-constexpr double kUnstable = 4;
 /// Within so many tolerances sweeps do the rest.
 constexpr double kNear = 10;
 /// Error of joints that a step meets at most where there was none in the last frame [m/s] or
@@ -146,7 +143,9 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const bool strained = steps_->strain(i) > kStrained || steps_->IsLoaded(i);
   const bool thrown = steps_->HasJoints(i) && !odds.stepped_most(bodies) &&
                       largest > (strained ? kMostThrownStrained : kMostThrown);
-  const bool pays = steps_->strain(i) > kUnstable || odds.pays() || odds.wants_trial();
+  // raised inertia needs a tension that is right in each frame, and sweeps lose it within few
+  const bool needed = steps_->strain(i) > BlockSteps::kUnstable;
+  const bool pays = needed || odds.pays() || odds.wants_trial();
   if (near || thrown || !pays) return NoStep::kSweepsFaster;
   const int sweeps = frame_->settings.max_sweeps;
   const double of_scalar = steps_->HasJoints(i) ? kMostOfScalarWithJoints : kMostOfScalar;
@@ -156,7 +155,8 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const double most_price = strained ? of_rest : std::min(of_rest, left);
   const int condensing = !strained && steps_->CondensesJoints(i) ? 1 : 0;
   const auto fits = [&](int factorisations) {
-    const bool more = odds.stepped_of_late() && (factorisations == 1 || steps_->HasJoints(i));
+    const bool more =
+        strained || (odds.stepped_of_late() && (factorisations == 1 || steps_->HasJoints(i)));
     return steps_->PriceAlone(g, i, factorisations + condensing) <=
            (more ? kMoreOnceStepped : 1) * most_price;
   };

@@ -309,22 +309,23 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
                                    const Impulses& impulses) {
   for (const Joint& joint : problem.joints) {
     if (!IsPulled(joint.body_a) && !IsPulled(joint.body_b)) continue;
-    for (int row = 0; row + 3 <= joint.rows;) {
-      const JointRow* const of_joint = &problem.joint_rows[joint.first_row];
-      if (!PullAtPoint(joint, of_joint, row)) {
-        ++row;
-        continue;
-      }
-      const RowTriple rows = ReadTriple(joint, of_joint, row);
-      const float* const x = &impulses.joint_rows[joint.first_row + row];
-      const Eigen::Vector3d lambda(x[0], x[1], x[2]);
-      if (IsPulled(joint.body_a)) {
-        Add(joint.body_a, ArmOf(rows.linear_a, rows.angular_a), rows.linear_a * lambda, time_step);
-      }
-      if (IsPulled(joint.body_b)) {
-        Add(joint.body_b, ArmOf(rows.linear_b, rows.angular_b), rows.linear_b * lambda, time_step);
-      }
-      row += 3;
+    const JointRow* const of_joint = &problem.joint_rows[joint.first_row];
+    for (int row = 0, count = 0; row + 2 <= joint.rows; row += count) {
+      const bool at_point = row + 3 <= joint.rows && PullAtPoint(joint, of_joint, row);
+      const bool in_plane = !at_point && PullInPlane(joint, of_joint, row, problem.bodies);
+      count = at_point ? 3 : in_plane ? 2 : 1;
+      if (count == 1) continue;
+      const RowTriple rows = ReadTriple(joint, of_joint, row, count);
+      Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+      for (int k = 0; k < count; ++k) lambda[k] = impulses.joint_rows[joint.first_row + row + k];
+      const auto add = [&](int body, const Eigen::Matrix3d& linear,
+                           const Eigen::Matrix3d& angular) {
+        if (!IsPulled(body)) return;
+        const Eigen::Vector3d arm = in_plane ? ArmInPlane(linear, angular) : ArmOf(linear, angular);
+        Add(body, arm, linear * lambda, time_step);
+      };
+      add(joint.body_a, rows.linear_a, rows.angular_a);
+      add(joint.body_b, rows.linear_b, rows.angular_b);
     }
   }
 }

@@ -66,10 +66,11 @@ class GeometricStiffness {
     Apply(time_step, bodies, jointed_);
   }
   /// Remembers what joints of a solved problem pull with: those of three rows along directions at
-  /// right angles to each other that pull and push alike. What sweeps alone leave on an island is
-  /// not yet its tension, so there it is averaged over some steps. Islands that touch nothing but
-  /// themselves are left alone: raised inertia would take from their angular momentum. Does nothing
-  /// if the report is not ok(). What is known of bodies without joints is forgotten.
+  /// right angles to each other that pull and push alike, or of two where bodies cannot move
+  /// across. What sweeps alone leave on an island is not yet its tension, so there it is averaged
+  /// over some steps. Islands that touch nothing but themselves are left alone: raised inertia
+  /// would take from their angular momentum. Does nothing if the report is not ok(). What is known
+  /// of bodies without joints is forgotten.
   void Learn(double time_step, const ContactProblem& problem, const Impulses& impulses,
              const Report& report);
   /// Forgets all tension.
