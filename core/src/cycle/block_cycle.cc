@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 
 #include "cairn/detail/spans.h"
 #include "simd/flush_denormals.h"
@@ -155,9 +154,10 @@ bool BlockCycle::Sweep(int count) {
     if (whole) islands_.See(islands_.groups(), sweeps_);
     return whole;
   }
-  // one for all kernels; threads and clocks of others do not get to see it
-  std::optional<simd::FlushDenormals> flush;
-  if (sweeps_->InOneGo()) flush.emplace();
+  if (sweeps_->InOneGo()) {
+    SweepGroupByGroup(count);
+    return true;
+  }
   for (bool whole = true; count > 0; --count) {
     if (MoveOn()) {
       sweeps_->SweepWhole(islands_.groups());
@@ -166,14 +166,40 @@ bool BlockCycle::Sweep(int count) {
     }
     if (!whole) return false;
     islands_.See(islands_.groups(), sweeps_);
-    LearnDirections();
+    for (size_t g = 0; g < islands_.groups().size(); ++g) {
+      if (islands_.groups()[g].active) LearnDirections(static_cast<int>(g));
+    }
   }
   return true;
 }
 
-void BlockCycle::LearnDirections() {
-  for (int i = 0; i < islands_.count(); ++i) {
-    if (!islands_.group_of(i).active) continue;
+void BlockCycle::SweepGroupByGroup(int count) {
+  const Plan& plan = frame_->plan();
+  // one for all kernels; clocks of others do not get to see it
+  const simd::FlushDenormals flush;
+  const bool moves = AnyMoves();
+  const bool starts = moves && nncg_.StartsFrom(frame_->blocks->blocks(), frame_->crew);
+  const double rows = islands_.ActiveRows();
+  for (int g = 0; g < static_cast<int>(plan.groups().size()); ++g) {
+    GroupSweeps& group = islands_.groups()[g];
+    if (!group.active) continue;
+    for (int k = 0; k < count; ++k) {
+      const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kSweep, group.sweeps});
+      if (moves && !(starts && k == 0)) nncg_.MoveGroupOn(plan.groups()[g], frame_->blocks);
+      sweeps_->SweepGroup(g, group.sweeps++);
+      sweeps_->ErrorsOfGroup(plan.groups()[g], islands_.sights());
+      LearnDirections(g);
+    }
+    islands_.See(g);
+  }
+  for (int k = 0; k < count; ++k) {
+    if (moves) frame_->meter->Charge(WorkKind::kSweep, Nncg::kSweeps * rows);
+    frame_->meter->Charge(WorkKind::kSweep, rows);
+  }
+}
+
+void BlockCycle::LearnDirections(int group) {
+  for (const int i : frame_->plan().islands_in(frame_->plan().groups()[group])) {
     // what a step leaves behind is rough, and wants to be smoothed, not carried on
     if (islands_[i].stepped()) {
       nncg_.Forget(i);
@@ -181,14 +207,16 @@ void BlockCycle::LearnDirections() {
       nncg_.See(i, islands_.last_seen(i).energy);
     }
   }
-  nncg_.ForgetWhereRowsEnd(islands_.SweepsMade());
+  nncg_.ForgetWhereRowsEnd(group, islands_.groups()[group].sweeps);
+}
+
+bool BlockCycle::AnyMoves() const {
+  const std::span<const IslandProgress> states = islands_.states();
+  return !std::all_of(states.begin(), states.end(), [](const auto& i) { return i.stepped(); });
 }
 
 bool BlockCycle::MoveOn() {
-  const std::span<const IslandProgress> states = islands_.states();
-  if (std::all_of(states.begin(), states.end(), [](const auto& i) { return i.stepped(); })) {
-    return false;
-  }
+  if (!AnyMoves()) return false;
   BudgetMeter& meter = *frame_->meter;
   const double rows = islands_.ActiveRows();
   if (!meter.Fits(0, (1 + Nncg::kSweeps) * rows)) {

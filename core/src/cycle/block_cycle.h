@@ -43,10 +43,14 @@ class BlockCycle {
   void Round();
   /// Makes so many sweeps, unless the budget ends before. The last one is seen.
   bool Sweep(int count);
+  /// Makes accelerated sweeps, each group all of them before the next: it stays in the cache.
+  void SweepGroupByGroup(int count);
+  /// Some island is not stepped: its state may move on.
+  bool AnyMoves() const;
   /// Moves the state on for one sweep, where that still fits.
   bool MoveOn();
-  /// From what the last sweep saw.
-  void LearnDirections();
+  /// From what the last sweep of an active group saw.
+  void LearnDirections(int group);
   /// Takes down what the first sweep saw.
   void MarkStart();
   void JudgeIslands(bool seen);

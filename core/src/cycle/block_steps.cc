@@ -280,7 +280,7 @@ double BlockSteps::Guess(int group, std::span<const int> islands) {
   if (known) return 0;
   const Group& of = frame_->plan().groups()[group];
   double bodies = 0;
-  for (int i : frame_->plan().islands_of_groups().subspan(of.first_island, of.islands)) {
+  for (int i : frame_->plan().islands_in(of)) {
     bodies += frame_->plan().islands()[i].bodies;
   }
   const Precisions precisions = PrecisionsOf(islands);

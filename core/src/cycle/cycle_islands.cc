@@ -48,6 +48,7 @@ void CycleIslands::Begin(const Plan& plan, NoStep no_step) {
   for (const Group& group : plan.groups()) not_done_.push_back(group.islands);
   stopped_.clear();
   stopped_.reserve(plan.islands().size());
+  if (last_seen_.size() < states_.size()) last_seen_.resize(states_.size());
 }
 
 bool CycleIslands::active() const {
@@ -68,11 +69,15 @@ int CycleIslands::StepsTaken(int island) const {
 }
 
 void CycleIslands::See(std::span<const GroupSweeps> groups, BlockSweeps* sweeps) {
-  if (last_seen_.size() < states_.size()) last_seen_.resize(states_.size());
   sweeps->ErrorsOfIslands(groups, last_seen_);
-  for (int i = 0; i < count(); ++i) {
-    const bool swept = groups[plan_->islands()[i].group].active;
-    if (swept && !states_[i].done()) states_[i].seen = last_seen_[i];
+  for (size_t g = 0; g < groups.size(); ++g) {
+    if (groups[g].active) See(static_cast<int>(g));
+  }
+}
+
+void CycleIslands::See(int group) {
+  for (const int i : plan_->islands_in(plan_->groups()[group])) {
+    if (!states_[i].done()) states_[i].seen = last_seen_[i];
   }
 }
 

@@ -85,6 +85,10 @@ class CycleIslands {
   /// Reads what the last sweep of these groups saw, into IslandProgress::seen where islands are not
   /// done.
   void See(std::span<const GroupSweeps> groups, BlockSweeps* sweeps);
+  /// Likewise of the last one of some sweeps of a group.
+  void See(int group);
+  /// What sweeps of groups that go on see, by island, before it is seen.
+  std::span<Residual> sights() { return last_seen_; }
   /// The same of an island of these groups, done or not.
   const Residual& last_seen(int island) const { return last_seen_[island]; }
   /// Takes down how far the sweeps of open islands have come.

@@ -75,7 +75,7 @@ std::span<const int> StepPlanner::PlanRound() {
 void StepPlanner::AddCandidates(int g) {
   const Plan& plan = frame_->plan();
   const Group& group = plan.groups()[g];
-  for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
+  for (int i : plan.islands_in(group)) {
     if (!(*islands_)[i].MayStep() || plan.islands()[i].first_body < 0) continue;
     NoStep no_step = steps_->Due(i) ? NoStep::kEnded : NoStep::kPaused;
     if (no_step == NoStep::kEnded && frame_->weighs_steps()) no_step = Weigh(g, i);

@@ -105,6 +105,10 @@ class Plan {
   /// -1 for a body without rows.
   std::span<const int> island_of_body() const { return island_finder_.island_of_body(); }
   std::span<const int> islands_of_groups() const { return islands_of_groups_; }
+  /// Those of one of groups().
+  std::span<const int> islands_in(const Group& group) const {
+    return islands_of_groups().subspan(group.first_island, group.islands);
+  }
   /// Body of each slot, kWorld for those that belong to none: the first, and one for each pair that
   /// cannot move.
   std::span<const int> body_of_slot() const { return body_of_slot_; }

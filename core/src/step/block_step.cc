@@ -113,7 +113,7 @@ void BlockStep<T>::ReadVelocities() {
 template <class T>
 template <class Function>
 void BlockStep<T>::ForIslands(const Function& function) {
-  for (int i : plan_->islands_of_groups().subspan(group_->first_island, group_->islands)) {
+  for (int i : plan_->islands_in(*group_)) {
     function(i);
   }
 }

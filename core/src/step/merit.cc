@@ -141,7 +141,7 @@ double* IslandMerits::SquaresOf(const Group& group) {
 
 void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
   const Plan& plan = frame->plan();
-  for (int i : plan.islands_of_groups().subspan(group.first_island, group.islands)) {
+  for (int i : plan.islands_in(group)) {
     merits_[i] = {};
   }
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
@@ -171,7 +171,7 @@ void IslandMerits::AddWhole(const simd::LaneKernels& kernels, const Group& group
 }
 
 void IslandMerits::AddShared(const Plan& plan, const Group& group) {
-  const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+  const auto islands = plan.islands_in(group);
   const size_t lanes = static_cast<size_t>(group.blocks) * kLanes;
   const double* const gains = gains_.data() + size_t{kLanes} * group.first_block;
   const double* const squares = SquaresOf(group);
@@ -217,7 +217,7 @@ void IslandMerits::AddShared(const Plan& plan, const Group& group) {
 
 void ScaleIslands(const Plan& plan, std::span<const float> factors, BlockData* blocks) {
   for (const Group& group : plan.groups()) {
-    const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+    const auto islands = plan.islands_in(group);
     if (group.islands == 1) {
       const float factor = factors[islands[0]];
       if (factor != 1) ScaleWhole(plan, group, factor, blocks);

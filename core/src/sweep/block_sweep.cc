@@ -206,6 +206,14 @@ void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& ker
   }
 }
 
+void BlockSweeps::SweepGroup(int group, int sweeps_made) {
+  const Group& of = frame_->plan().groups()[group];
+  simd::PairWork work = frame_->WorkOn(of, of.first_block, of.blocks);
+  work.hold_lifted = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
+  work.sweep = sweeps_made;
+  frame_->kernels().measured_sweep(work);
+}
+
 void BlockSweeps::SweepInOneGo(int count, std::span<GroupSweeps> groups) {
   const simd::PairKernels& kernels = frame_->kernels();
   GoOver(groups, {SpanKind::kSweep, count, kernels.sweep, kernels.measured_sweep});
@@ -228,7 +236,6 @@ bool BlockSweeps::Sweep(int count, std::span<GroupSweeps> groups) {
 }
 
 void BlockSweeps::SweepWhole(std::span<GroupSweeps> groups) {
-  if (InOneGo()) return SweepInOneGo(1, groups);
   Pass pass(*this, Pass::Kind::kWholeSweeps, groups, 1, 1);
   Run(&pass, groups);
 }
@@ -331,7 +338,7 @@ Residual BlockSweeps::ErrorByAll(const Group& group) const {
 
 void BlockSweeps::ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const {
   const Plan& plan = frame_->plan();
-  const auto islands = plan.islands_of_groups().subspan(group.first_island, group.islands);
+  const auto islands = plan.islands_in(group);
   if (islands.size() == 1) {
     residuals[islands[0]] = HasFewLanes(group) ? ErrorOfFewLanes(group) : ErrorOfGroup(group);
     return;

@@ -35,6 +35,8 @@ class BlockSweeps {
   bool Sweep(int count, std::span<GroupSweeps> groups);
   /// One measured sweep, to its end.
   void SweepWhole(std::span<GroupSweeps> groups);
+  /// The same of one group, free of charge. @pre InOneGo()
+  void SweepGroup(int group, int sweeps_made);
 
   /// A sweep over rows of friction alone, free of charge: the end of what was swept before.
   void SweepFriction(std::span<const GroupSweeps> groups);
@@ -47,6 +49,8 @@ class BlockSweeps {
   /// What the errors of active groups amount to, for each of their islands, into one entry for each
   /// of the plan.
   void ErrorsOfIslands(std::span<const GroupSweeps> groups, std::span<Residual> residuals);
+  /// The same for the islands of one group.
+  void ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const;
 
  private:
   static constexpr int kManyBlocks = 128;
@@ -65,7 +69,6 @@ class BlockSweeps {
   void MeasureAt(double price, std::span<const GroupSweeps> groups);
   /// A look at each of its lanes takes less time than one at whole lines.
   bool HasFewLanes(const Group& group) const;
-  void ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const;
   /// A group of one island with more blocks than one thread looks at while others wait.
   bool IsForAll(const Group& group) const;
   Residual ErrorByAll(const Group& group) const;

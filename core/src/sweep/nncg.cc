@@ -19,11 +19,7 @@ constexpr int kNone = -1;
 class Nncg::Pass final : public StagedWork {
  public:
   Pass(std::span<const GroupSweeps> groups, BlockFrame* frame, Nncg* nncg)
-      : groups_(groups),
-        plan_(frame->plan()),
-        kernels_(frame->lane_kernels()),
-        now_(frame->blocks()),
-        nncg_(*nncg) {}
+      : groups_(groups), plan_(frame->plan()), frame_(frame), nncg_(*nncg) {}
 
   int stages() const override { return 1; }
   int units(int) const override {
@@ -40,9 +36,9 @@ class Nncg::Pass final : public StagedWork {
     const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
     if (!groups_[group].active) return;
     if (unit < blocks) {
-      MoveImpulses(plan_.units()[unit].first_block, plan_.units()[unit].blocks);
+      nncg_.MoveImpulses(plan_.units()[unit].first_block, plan_.units()[unit].blocks, frame_);
     } else {
-      MoveBodies(plan_.groups()[group]);
+      nncg_.MoveBodies(plan_.groups()[group], frame_);
     }
   }
 
@@ -50,31 +46,14 @@ class Nncg::Pass final : public StagedWork {
   void DoAll(SpanRecorder* recorder) {
     const SpanClock clock(recorder, 0, recorder != nullptr ? label(0) : SpanLabel{});
     for (size_t g = 0; g < groups_.size(); ++g) {
-      if (!groups_[g].active) continue;
-      const Group& group = plan_.groups()[g];
-      MoveImpulses(group.first_block, group.blocks);
-      MoveBodies(group);
+      if (groups_[g].active) nncg_.MoveGroupOn(plan_.groups()[g], frame_);
     }
   }
 
  private:
-  void MoveImpulses(int first_block, int blocks) {
-    kernels_.move_blocks(&nncg_.MomentumOf(0), &plan_.blocks()[first_block],
-                         plan_.islands_of(first_block), blocks,
-                         {now_.x.data(), nncg_.last_.x.data(), nncg_.direction_.x.data()});
-  }
-
-  void MoveBodies(const Group& group) {
-    const auto of_group = [&](auto& bodies) { return bodies.data() + group.first_slot; };
-    kernels_.move_bodies(
-        &nncg_.MomentumOf(0), of_group(nncg_.island_of_slot_), group.slots,
-        {of_group(now_.bodies), of_group(nncg_.last_.bodies), of_group(nncg_.direction_.bodies)});
-  }
-
   std::span<const GroupSweeps> groups_;
   const Plan& plan_;
-  const simd::LaneKernels& kernels_;
-  BlockData& now_;
+  BlockFrame* frame_;
   Nncg& nncg_;
 };
 
@@ -108,7 +87,8 @@ void Nncg::FindEnds(const Plan& plan) {
       for (int l = 0; l < block.lanes; ++l) {
         const int island = plan.island_of(b, l);
         const int newest = std::exchange(newest_end_[island], row.max_sweeps);
-        if (newest != row.max_sweeps) ends_.push_back({row.max_sweeps, island});
+        if (newest == row.max_sweeps) continue;
+        ends_.push_back({plan.islands()[island].group, row.max_sweeps, island});
       }
     }
   }
@@ -116,9 +96,9 @@ void Nncg::FindEnds(const Plan& plan) {
   ends_.erase(std::unique(ends_.begin(), ends_.end()), ends_.end());
 }
 
-void Nncg::ForgetWhereRowsEnd(int sweeps) {
+void Nncg::ForgetWhereRowsEnd(int group, int sweeps) {
   for (const End& end : ends_) {
-    if (end.sweeps == sweeps) Forget(end.island);
+    if (end.group == group && end.sweeps == sweeps) Forget(end.island);
   }
 }
 
@@ -163,13 +143,34 @@ void Nncg::Remember(const BlockData& now, Crew* crew) {
   copy(now.bodies, &last_.bodies, &direction_.bodies);
 }
 
+bool Nncg::StartsFrom(const BlockData& now, Crew* crew) {
+  if (known_) return false;
+  Remember(now, crew);
+  known_ = true;
+  return true;
+}
+
+void Nncg::MoveImpulses(int first_block, int blocks, BlockFrame* frame) {
+  const Plan& plan = frame->plan();
+  frame->lane_kernels().move_blocks(
+      &MomentumOf(0), &plan.blocks()[first_block], plan.islands_of(first_block), blocks,
+      {frame->blocks().x.data(), last_.x.data(), direction_.x.data()});
+}
+
+void Nncg::MoveBodies(const Group& group, BlockFrame* frame) {
+  const auto of_group = [&](auto& bodies) { return bodies.data() + group.first_slot; };
+  frame->lane_kernels().move_bodies(
+      &MomentumOf(0), of_group(island_of_slot_), group.slots,
+      {of_group(frame->blocks().bodies), of_group(last_.bodies), of_group(direction_.bodies)});
+}
+
+void Nncg::MoveGroupOn(const Group& group, BlockFrame* frame) {
+  MoveImpulses(group.first_block, group.blocks, frame);
+  MoveBodies(group, frame);
+}
+
 void Nncg::MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame) {
-  BlockData& now = frame->blocks();
-  if (!known_) {
-    Remember(now, crew);
-    known_ = true;
-    return;
-  }
+  if (StartsFrom(frame->blocks(), crew)) return;
   Pass pass(groups, frame, this);
   if (crew->alone()) return pass.DoAll(crew->recorder());
   crew->Run(&pass);

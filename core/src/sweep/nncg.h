@@ -27,21 +27,26 @@ class Nncg {
   void Begin(const BlockFrame& frame);
   /// The state of an island was changed by something else: it has no direction.
   void Forget(int island);
-  /// Likewise islands of rows that take part in so many sweeps and no more: they are not to be
-  /// moved, as no sweep would bring them back into their bounds.
-  void ForgetWhereRowsEnd(int sweeps);
+  /// Likewise islands of a group with rows that take part in so many sweeps and no more: they are
+  /// not to be moved, as no sweep would bring them back into their bounds.
+  void ForgetWhereRowsEnd(int group, int sweeps);
   void ForgetAll();
   /// What the last sweep changed on an island [sqrt(J)], see Residual::energy.
   void See(int island, double energy);
+  /// Whether no state of this frame was known, and this one is the first: it has no direction yet.
+  bool StartsFrom(const BlockData& now, Crew* crew);
   /// Moves the state of the active groups on. A whole sweep has to follow.
   void MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame);
+  /// The same of one group.
+  void MoveGroupOn(const Group& group, BlockFrame* frame);
 
  private:
   class Pass;
   void ReadPlan(const Plan& plan);
-  /// The state to go on from: it has no direction yet.
   void Remember(const BlockData& now, Crew* crew);
   void FindEnds(const Plan& plan);
+  void MoveImpulses(int first_block, int blocks, BlockFrame* frame);
+  void MoveBodies(const Group& group, BlockFrame* frame);
   simd::Momentum& MomentumOf(int island) { return momenta_[static_cast<size_t>(island) + 1]; }
   /// One number for each part of the state.
   struct State {
@@ -56,7 +61,7 @@ class Nncg {
   Array<int> island_of_slot_;
   /// Rows of an island do not take part in further sweeps than that.
   struct End {
-    int sweeps, island;
+    int group, sweeps, island;
     friend auto operator<=>(const End&, const End&) = default;
   };
   Array<End> ends_;        ///< of the plan
