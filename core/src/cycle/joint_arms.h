@@ -32,6 +32,18 @@ inline bool IsTwoSided(const Joint& joint, const JointRow* rows, int row) {
   return !joint.is_bounded(row) || IsTwoSided(rows[row].lo, rows[row].hi);
 }
 
+/// The linear parts of three rows that pull at a point are the axes of the world, in order, as
+/// those of pins and hinges are.
+inline bool AreWorldAxes(const Joint& joint, const JointRow* rows, int first) {
+  if (!joint.opposite) return false;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      if (rows[first + i].linear_a[k] != (i == k ? 1 : 0)) return false;
+    }
+  }
+  return true;
+}
+
 /// Three rows that follow each other pull at a point: they pull and push alike, and their linear
 /// parts are axes. @param rows  of the joint; @param first  the first of the three
 inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
@@ -39,6 +51,7 @@ inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
   for (int row = first; row < first + 3; ++row) {
     if (!IsTwoSided(joint, rows, row)) return false;
   }
+  if (AreWorldAxes(joint, rows, first)) return true;
   const bool of_a = joint.body_a != kWorld || joint.opposite;
   return AreAxes([&](int i) -> const float(&)[3] {
     return of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
@@ -96,6 +109,14 @@ inline RowTriple ReadTriple(const Joint& joint, const JointRow* rows, int first,
     triple.angular_b.col(k) = vector(row.angular_b);
   }
   return triple;
+}
+
+/// ArmOf() of three rows along the axes of the world, whose angular parts those are.
+inline Eigen::Vector3d ArmOfWorldAxes(const float (&x)[3], const float (&y)[3],
+                                      const float (&z)[3]) {
+  return 0.5 * Eigen::Vector3d(static_cast<double>(y[2]) - static_cast<double>(z[1]),
+                               static_cast<double>(z[0]) - static_cast<double>(x[2]),
+                               static_cast<double>(x[1]) - static_cast<double>(y[0]));
 }
 
 /// The part in their plane of the arm of two such rows.

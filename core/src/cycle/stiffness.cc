@@ -38,8 +38,8 @@ constexpr double kSameMoment = 1e-3;
 double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
 
 /// At least the length of a vector.
-double Sum(const float (&vector)[3]) {
-  return static_cast<double>(std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]));
+float Sum(const float (&vector)[3]) {
+  return std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]);
 }
 
 /// Stiffness about each principal axis, at least what K turns by (Gershgorin). K is symmetric.
@@ -279,20 +279,21 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
   for (const Joint& joint : problem.joints) {
     if (!asks(joint.body_a) && !asks(joint.body_b)) continue;
     // no triple of its rows has a longer arm or a larger impulse
-    double arm_a = 0, arm_b = 0, impulse = 0;
+    float arm_a = 0, arm_b = 0, impulse = 0;
     for (int i = 0; i < joint.rows; ++i) {
       const int k = joint.first_row + i;
-      if (!IsTwoSided(joint, &problem.joint_rows[joint.first_row], i)) continue;
+      if (joint.is_angular(i) || !IsTwoSided(joint, &problem.joint_rows[joint.first_row], i))
+        continue;
       const JointRow& row = problem.joint_rows[k];
-      const double linear_a = Sum(row.linear_a);
-      const double linear_b = joint.opposite ? linear_a : Sum(row.linear_b);
+      const float linear_a = Sum(row.linear_a);
+      const float linear_b = joint.opposite ? linear_a : Sum(row.linear_b);
       arm_a += linear_a * Sum(row.angular_a);
       arm_b += linear_b * Sum(row.angular_b);
-      impulse +=
-          std::abs(static_cast<double>(impulses.joint_rows[k])) * std::max(linear_a, linear_b);
+      impulse += std::abs(impulses.joint_rows[k]) * std::max(linear_a, linear_b);
     }
-    if (joint.body_a != kWorld) pull_[joint.body_a] += impulse * arm_a / 2;
-    if (joint.body_b != kWorld) pull_[joint.body_b] += impulse * arm_b / 2;
+    const double half = 0.5 * static_cast<double>(impulse);
+    if (joint.body_a != kWorld) pull_[joint.body_a] += half * static_cast<double>(arm_a);
+    if (joint.body_b != kWorld) pull_[joint.body_b] += half * static_cast<double>(arm_b);
   }
   for (size_t i = 0; i < bodies; ++i) {
     if (known_[i] != nullptr) {
@@ -311,13 +312,22 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
     if (!IsPulled(joint.body_a) && !IsPulled(joint.body_b)) continue;
     const JointRow* const of_joint = &problem.joint_rows[joint.first_row];
     for (int row = 0, count = 0; row + 2 <= joint.rows; row += count) {
+      if (joint.is_angular(row)) {
+        count = 1;
+        continue;
+      }
       const bool at_point = row + 3 <= joint.rows && PullAtPoint(joint, of_joint, row);
       const bool in_plane = !at_point && PullInPlane(joint, of_joint, row, problem.bodies);
       count = at_point ? 3 : in_plane ? 2 : 1;
       if (count == 1) continue;
+      const float* const impulse = &impulses.joint_rows[joint.first_row + row];
+      if (at_point && AreWorldAxes(joint, of_joint, row)) {
+        AddAlongWorldAxes(time_step, joint, of_joint + row, impulse);
+        continue;
+      }
       const RowTriple rows = ReadTriple(joint, of_joint, row, count);
       Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-      for (int k = 0; k < count; ++k) lambda[k] = impulses.joint_rows[joint.first_row + row + k];
+      for (int k = 0; k < count; ++k) lambda[k] = impulse[k];
       const auto add = [&](int body, const Eigen::Matrix3d& linear,
                            const Eigen::Matrix3d& angular) {
         if (!IsPulled(body)) return;
@@ -327,6 +337,21 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
       add(joint.body_a, rows.linear_a, rows.angular_a);
       add(joint.body_b, rows.linear_b, rows.angular_b);
     }
+  }
+}
+
+void GeometricStiffness::AddAlongWorldAxes(double time_step, const Joint& joint,
+                                           const JointRow* rows, const float* impulse) {
+  const Eigen::Vector3d lambda(impulse[0], impulse[1], impulse[2]);
+  if (IsPulled(joint.body_a)) {
+    const Eigen::Vector3d arm =
+        ArmOfWorldAxes(rows[0].angular_a, rows[1].angular_a, rows[2].angular_a);
+    Add(joint.body_a, arm, lambda, time_step);
+  }
+  if (IsPulled(joint.body_b)) {
+    const Eigen::Vector3d arm =
+        ArmOfWorldAxes(rows[0].angular_b, rows[1].angular_b, rows[2].angular_b);
+    Add(joint.body_b, -arm, -lambda, time_step);
   }
 }
 
@@ -413,16 +438,13 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     Memory* memory = known_[pulled_[p]];
     const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
     if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
-    // one that is known may have been lowered
-    const Memory fresh{.key = IslandMemories::KeyOf(body, pulled_[p]),
-                       .place = pulled_[p],
-                       .inv_mass = body.inv_mass,
-                       .inv_inertia = inv_inertia};
-    if (memory == nullptr) {
-      fresh_.push_back(fresh);
-      memory = &fresh_.back();
-    } else if (!known) {
-      *memory = fresh;
+    if (!known) {
+      if (memory == nullptr) memory = &fresh_.emplace_back();
+      // one that is known may have been lowered
+      *memory = {.key = IslandMemories::KeyOf(body, pulled_[p]),
+                 .place = pulled_[p],
+                 .inv_mass = body.inv_mass,
+                 .inv_inertia = inv_inertia};
     }
     View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * View(sums_[p]);
     memory->seen = true;

@@ -107,6 +107,9 @@ class GeometricStiffness {
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
   bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
+  /// The same for three rows of a joint; see AreWorldAxes().
+  void AddAlongWorldAxes(double time_step, const Joint& joint, const JointRow* rows,
+                         const float* impulse);
   void AddRows(double time_step, const ContactProblem& problem, const Impulses& impulses);
   void Remember(double time_step, std::span<const Body> bodies);
 
