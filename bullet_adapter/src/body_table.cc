@@ -80,14 +80,6 @@ void PrefetchAhead(std::span<btCollisionObject* const> objects, size_t i) {
   Prefetch(objects[i + kAhead], sizeof(btRigidBody));
 }
 
-/// Whether a joint that is in a world holds it.
-bool IsJointed(btRigidBody* rigid) {
-  for (int i = 0; i < rigid->getNumConstraintRefs(); ++i) {
-    if (rigid->getConstraintRef(i)->isEnabled()) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 bool Reacts(const btRigidBody& rigid) {
@@ -203,10 +195,24 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
   terms.End();
 }
 
-void BodyTable::Stiffen(GeometricStiffness* stiffness, btScalar part) {
+void BodyTable::FindJointed(std::span<btTypedConstraint* const> joints) {
+  // bodies know only of joints that keep them from colliding
+  jointed_.assign(rigids_.size(), 0);
+  const auto mark = [this](const btRigidBody& rigid) {
+    const ContactEnd* const end = Find(rigid);
+    if (end != nullptr && end->number != kWorld) jointed_[end->number] = 1;
+  };
+  for (const btTypedConstraint* const joint : joints) {
+    if (!joint->isEnabled()) continue;
+    mark(joint->getRigidBodyA());
+    mark(joint->getRigidBodyB());
+  }
+}
+
+void BodyTable::Stiffen(std::span<btTypedConstraint* const> joints, btScalar part,
+                        GeometricStiffness* stiffness) {
   if (stiffness->empty()) return;  // nothing is strained, and ToBody() says so
-  jointed_.clear();
-  for (btRigidBody* const rigid : rigids_) jointed_.push_back(IsJointed(rigid) ? 1 : 0);
+  FindJointed(joints);
   for (const GeometricStiffness::Raised& raised :
        stiffness->RaiseInertia(part, bodies_, jointed_)) {
     Motion& motion = motions_[raised.body];

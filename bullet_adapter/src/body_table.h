@@ -2,6 +2,7 @@
 #pragma once
 
 #include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
+#include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <atomic>
@@ -56,8 +57,10 @@ class BodyTable {
   /// passed over.
   void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
              detail::Threads* threads);
-  /// Does to the bodies that are there what tension asks for where steps are that long [s].
-  void Stiffen(GeometricStiffness* stiffness, btScalar part);
+  /// Does to the bodies that are there, those of enabled joints, what tension asks for where steps
+  /// are that long [s].
+  void Stiffen(std::span<btTypedConstraint* const> joints, btScalar part,
+               GeometricStiffness* stiffness);
 
   /// An object. One that was not listed (kinematic, asleep, in no world) gets a number when it is
   /// first asked for. The reference is good until another object is asked for.
@@ -115,6 +118,8 @@ class BodyTable {
   /// is there already: then nothing was done.
   bool EnterInParts(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
                     detail::Threads* threads);
+  /// Writes jointed_.
+  void FindJointed(std::span<btTypedConstraint* const> joints);
   Part Count(std::span<btCollisionObject* const> objects);
   void EnterPart(std::span<btCollisionObject* const> objects, int first,
                  const btContactSolverInfo& info);

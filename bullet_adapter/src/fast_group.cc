@@ -20,7 +20,7 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   bodies_.Begin(group.bodies, info, threads_);
   if (options.geometric_stiffness) {
     const SpanClock clock(threads_->recorder(), 0, {SpanKind::kTension});
-    bodies_.Stiffen(&stiffness_, info.m_timeStep / btScalar(substeps));
+    bodies_.Stiffen(group.joints, info.m_timeStep / btScalar(substeps), &stiffness_);
   }
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;

@@ -32,21 +32,25 @@ struct LoadedChain {
   btJointFeedback feedback;                ///< of the first
   double load;
 
+  /// @p links  half the length of their shapes [m]; connected bodies that collide want less than
+  /// 0.5
   explicit LoadedChain(double load_, const Settings& settings = {},
-                       const bullet::Options& options = {}, double tilt = 0)
+                       const bullet::Options& options = {}, double tilt = 0,
+                       btScalar links = btScalar(0.5),
+                       bench::ConnectedBodies connected = bench::ConnectedBodies::kPassThrough)
       : solver(settings, options), load(load_) {
     const btQuaternion turn(btVector3(0, 0, 1), btScalar(tilt));
     const btTransform frame(turn, btVector3(0, 20, 0));
-    const btVector3 half(btScalar(0.1), btScalar(0.5), btScalar(0.1)), up(0, btScalar(0.5), 0);
+    const btVector3 half(btScalar(0.1), links, btScalar(0.1)), up(0, btScalar(0.5), 0);
     for (int i = 0; i <= kLinks; ++i) {
       const btTransform pose = frame * At(0, btScalar(-0.5 - i), 0);
-      btRigidBody* const body =
-          i == kLinks ? world.AddSphere(btScalar(0.5), {.mass = btScalar(load), .pose = pose})
-                      : world.AddBox(half, {.mass = 1, .pose = pose});
+      btRigidBody* const body = i == kLinks
+                                    ? world.AddSphere(links, {.mass = btScalar(load), .pose = pose})
+                                    : world.AddBox(half, {.mass = 1, .pose = pose});
       joints.push_back(world.AddJoint(
           i == 0 ? std::make_unique<btPoint2PointConstraint>(*body, up)
                  : std::make_unique<btPoint2PointConstraint>(*body, *bodies.back(), up, -up),
-          bench::ConnectedBodies::kPassThrough));
+          connected));
       bodies.push_back(body);
     }
     joints[0]->setJointFeedback(&feedback);
@@ -88,6 +92,15 @@ TEST(TensionInBullet, IsSwitchedOffByEitherSwitch) {
   EXPECT_EQ(setting.MostStrain(), 0);
   EXPECT_EQ(bench::StateHash(option.world), bench::StateHash(setting.world));
   EXPECT_NE(bench::StateHash(option.world), bench::StateHash(on.world));
+}
+
+TEST(TensionInBullet, IsTheSameWhetherConnectedBodiesMayCollideOrNot) {
+  // Bullet's addConstraint() lets them unless it is told otherwise
+  LoadedChain collide(1000, {}, {}, 0.3, btScalar(0.4), bench::ConnectedBodies::kCollide),
+      pass(1000, {}, {}, 0.3, btScalar(0.4), bench::ConnectedBodies::kPassThrough);
+  for (LoadedChain* chain : {&collide, &pass}) chain->GapOf(60);
+  EXPECT_GT(collide.MostStrain(), 4);
+  EXPECT_EQ(bench::StateHash(collide.world), bench::StateHash(pass.world));
 }
 
 TEST(TensionInBullet, IsLeftAloneWhereBulletMakesTheRows) {
