@@ -123,12 +123,14 @@ struct ConstraintSolver::Impl {
   void SetTimeLeft(Budget* budget) const;
 
   std::unique_ptr<Recorder> recorder = Recorder::FromEnvironment(kSource);
+  bool recorded = false;  ///< this group was
 
   /// False, and the report says why, if a setting is out of its range.
   bool AcceptSettings();
   std::string told;  ///< the last warning
 
-  /// Takes a copy of the problem if it is to be recorded, on nobody's budget.
+  /// Takes a copy of the problem if it is to be recorded, on nobody's budget. Of a group that is
+  /// solved again as Bullet's rows, after it was refused, the first is the one.
   bool BeginRecording(const ContactProblem& problem, const Impulses& impulses);
 };
 
@@ -147,11 +149,11 @@ void ConstraintSolver::Impl::SetTimeLeft(Budget* budget) const {
 
 bool ConstraintSolver::Impl::BeginRecording(const ContactProblem& problem,
                                             const Impulses& impulses) {
-  if (recorder == nullptr) return false;
+  if (recorder == nullptr || recorded) return false;
   const nanoseconds begin = Now();
-  const bool recording = recorder->Begin(problem, impulses);
+  recorded = recorder->Begin(problem, impulses);
   start += Passed(begin, Now());
-  return recording;
+  return recorded;
 }
 
 bool ConstraintSolver::Impl::AcceptSettings() {
@@ -233,7 +235,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
     return 0;
   }
   impl_->start = impl_->Now();
-  impl_->fell_back = impl_->solved_fast = false;
+  impl_->fell_back = impl_->solved_fast = impl_->recorded = false;
   impl_->times = {};
   bool solved = false;
   if (impl_->options.mode == Mode::kFast) {

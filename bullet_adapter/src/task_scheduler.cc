@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "cairn/detail/threads.h"
@@ -80,6 +81,19 @@ class Loop final : public detail::PartedWork {
   std::atomic<int> next_{0};
 };
 
+/// Calls a function in the end, also where the body of a loop throws.
+template <class Function>
+class Finally {
+ public:
+  explicit Finally(Function function) : function_(std::move(function)) {}
+  ~Finally() { function_(); }
+  Finally(const Finally&) = delete;
+  Finally& operator=(const Finally&) = delete;
+
+ private:
+  Function function_;
+};
+
 }  // namespace
 
 struct TaskScheduler::Impl {
@@ -93,21 +107,17 @@ struct TaskScheduler::Impl {
   template <class DoGrain>
   bool Share(int grains, const DoGrain& do_grain) {
     if (count == 1 || grains <= 1 || busy.exchange(true, std::memory_order_acquire)) return false;
+    const Finally no_longer_busy([this] { busy.store(false, std::memory_order_release); });
     const unsigned caller = btGetCurrentThreadIndex();
-    const bool seated = seats.Take(caller);
-    if (seated) {
-      btPushThreadsAreRunning();
-      {
-        Loop<DoGrain> loop(grains, caller, &seats, do_grain);
-        const int most = std::min(count, grains);
-        const detail::AwakeHelpers awake(&threads, most);
-        threads.Do(most, &loop);
-      }
-      btPopThreadsAreRunning();
-      seats.Leave(caller);
-    }
-    busy.store(false, std::memory_order_release);
-    return seated;
+    if (!seats.Take(caller)) return false;
+    const Finally leave([this, caller] { seats.Leave(caller); });
+    btPushThreadsAreRunning();
+    const Finally pop([] { btPopThreadsAreRunning(); });
+    Loop<DoGrain> loop(grains, caller, &seats, do_grain);
+    const int most = std::min(count, grains);
+    const detail::AwakeHelpers awake(&threads, most);
+    threads.Do(most, &loop);
+    return true;
   }
 
   std::string complaint = WhyAlone();

@@ -283,6 +283,9 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
   if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
   if (!report->ok()) return;
   const Attempt attempt(this);
+  threads.Follow(settings.threads, settings.executor);
+  // while helpers are here, whoever called them has said so
+  if (!threads.crew().called()) threads.RecordTo(settings.tuning.spans);
   quiet.Reserve(problem.bodies.size());
   const ContactProblem stiff = tension.Stiffen(problem, settings);
   if (settings.substeps == 1 && !settings.relax) {

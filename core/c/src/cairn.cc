@@ -94,9 +94,9 @@ CairnStatus Solve(CairnSolver* solver, const CairnProblem& problem, const BodyOf
     if (velocities == nullptr && problem.bodyCount > 0) return Refuse(cairnNullPointer, report);
     const bool recording = solver->recorder.Begin(view.problem, view.impulses);
     const CairnStatus solved = Run(view, solver, report);
+    if (solved == cairnOk) c::CopyVelocities(solver->velocities, velocities);
     if (recording) solver->recorder.End(solver->solver.settings(), solver->report);
     solver->recorder.NextFrame();
-    if (solved == cairnOk) c::CopyVelocities(solver->velocities, velocities);
     return solved;
   });
   solver->last = status;

@@ -31,7 +31,7 @@ struct Joint {
   int rows = 1;               ///< In [1, kMostRows].
   std::uint32_t bounded = 0;  ///< Bit i: row i has bounds, 0 for none.
   std::uint32_t angular = 0;  ///< Bit i: row i only turns, and counts in [rad/s].
-  std::uint32_t errors = 0;   ///< Bit i: row i takes back an error of position; Settings::relax.
+  std::uint32_t errors = 0;   ///< Bit i: row i takes back an error of position.
   /// Share of what the bodies do without constraints that rows work against; 1: all.
   float damping = 1;
   bool soft = false;  ///< Rows have a compliance.

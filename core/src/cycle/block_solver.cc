@@ -22,11 +22,10 @@ bool AreFinite(std::span<const IslandReport> islands) {
 PackResult BlockSolver::Solve(const ContactProblem& problem, const Settings& settings,
                               BudgetMeter* meter, const Impulses& impulses,
                               std::span<Velocity> velocities, Report* report) {
-  crew_->Follow(settings.threads, settings.executor);
   // waiting for another thread would cost more than it does, where there is little to do
   const int threads = detail::ThreadsFor(static_cast<int>(AllRows(problem)), settings.threads);
   Crew* const crew = threads == 1 ? &alone_ : crew_;
-  if (!crew->called()) crew->RecordTo(settings.tuning.spans);
+  alone_.RecordTo(settings.tuning.spans);
   const detail::AwakeHelpers awake(crew, crew->called() ? 1 : threads);  // or somebody else does
   const PackResult begun = Begin(problem, settings, impulses, crew);
   if (begun != PackResult::kDone) return begun;

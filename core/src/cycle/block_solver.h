@@ -18,7 +18,7 @@ namespace cairn {
 /// Solves contact problems on kernels, in floats, colour by colour, on threads.
 class BlockSolver : public detail::Placed {
  public:
-  /// @p crew: as the settings of each Solve() say
+  /// @p crew: as the settings of each Solve() say, which it follows already
   explicit BlockSolver(Crew* crew) : crew_(crew) {}
 
   /// kDone: solved, and the islands of the report are filled in. Otherwise nothing is written: on

@@ -17,8 +17,8 @@ constexpr double kMostOfRest = 1.5, kMostOfRestWithJoints = 1.0;
 /// And all of it together so many times what sequential impulses row by row do. With more of both
 /// wild chains at 30 Hz take steps that tear them.
 constexpr double kMostOfScalar = 1.15, kMostOfScalarWithJoints = 1.6;
-/// By so much more where there was a step in the last frame, since steps that come and go do harm,
-/// and where joints pull. Without joints that is for one factorisation.
+/// By so much more where there was a step of late, since steps that come and go do harm, and where
+/// joints pull. Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
 /// From which Body::strain on, and where a joint holds a load, sweeps leave joints that part before
 /// they pull: steps are taken whatever they cost in terms of row by row. From half of it on dolls

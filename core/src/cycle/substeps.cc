@@ -71,9 +71,13 @@ void Substeps::Begin(const ContactProblem& problem, const Impulses& start, int p
 
 void Substeps::Start(const Impulses& start) {
   rows_x_.assign(start.rows.begin(), start.rows.end());
-  points_x_.assign(start.points.begin(), start.points.end());
-  twists_x_.assign(start.twists.begin(), start.twists.end());
-  joints_x_.assign(start.joint_rows.begin(), start.joint_rows.end());
+  // where there are none of them, the caller may hand in anything
+  const auto take = [](const auto& of, const auto& from, auto* to) {
+    to->assign(from.begin(), of.empty() ? from.begin() : from.end());
+  };
+  take(whole_.manifolds, start.points, &points_x_);
+  take(whole_.manifolds, start.twists, &twists_x_);
+  take(whole_.joints, start.joint_rows, &joints_x_);
   const auto part = static_cast<float>(share());
   for (double& x : rows_x_) x *= share();
   for (float& x : joints_x_) x *= part;

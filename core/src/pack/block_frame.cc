@@ -223,10 +223,9 @@ PackResult BlockFrame::WhitenBodies(const ContactProblem& problem, Crew* crew) {
       if (HasLockedAxes(bodies[i])) locked.store(true, std::memory_order_relaxed);
       if (!Whiten(bodies[i], &bodies_[i])) worst.Add(PackResult::kInvalid);
       if (!FitsFloats(bodies[i], bodies_[i])) worst.Add(PackResult::kOutOfRange);
-      if (!contacts) continue;
       const ContactMotion* const motion = problem.motions.empty() ? nullptr : &problem.motions[i];
-      contact_bodies_[i] = ContactBodyOf(bodies[i], bodies_[i], motion);
       if (motion != nullptr) motions.See(reinterpret_cast<const float*>(motion));
+      if (contacts) contact_bodies_[i] = ContactBodyOf(bodies[i], bodies_[i], motion);
     }
     if (!motions.all()) worst.Add(PackResult::kOutOfRange);
   });

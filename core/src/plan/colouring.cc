@@ -46,8 +46,9 @@ void Colouring::Prepare() {
   for (size_t i = 0; i < known_.size(); ++i) {
     const Name& name = known_[i].name;
     size_t at = HashOf(name.a, name.b, name.contact) & (capacity - 1);
-    while (table_[at] != 0) at = (at + 1) & (capacity - 1);
-    table_[at] = static_cast<int>(i) + 1;
+    while (table_[at] != 0 && known_[table_[at] - 1].name != name) at = (at + 1) & (capacity - 1);
+    // the first of those with one name is found; all pairs that nobody moves have one
+    if (table_[at] == 0) table_[at] = static_cast<int>(i) + 1;
   }
 }
 

@@ -65,9 +65,7 @@ BadSetting FindBadFieldOfBody(const ContactProblem& problem, int body, Status st
   search.AllFinite("velocity.angular", of.velocity.angular);
   search.AllFinite("impulse", of.impulse);
   search.AllFinite("angular_impulse", of.angular_impulse);
-  // of rows alone nobody looks at them, nor at how many there are
-  const bool seen = !(problem.joints.empty() && problem.manifolds.empty());
-  if (seen && !problem.motions.empty()) {
+  if (!problem.motions.empty()) {
     const ContactMotion& motion = problem.motions[body];
     search.AllFinite("motions.free_velocity", motion.free_velocity);
     search.AllFinite("motions.free_spin", motion.free_spin);

@@ -196,10 +196,8 @@ BadSetting FindBadSize(const ContactProblem& problem, const Impulses& impulses) 
     check("impulses.joint_rows.size()", impulses.joint_rows.size(), "problem.joint_rows.size()",
           problem.joint_rows.size());
   }
-  if (joints || manifolds) {
-    check_or_none("problem.motions.size()", problem.motions.size(), "0 or problem.bodies.size()",
-                  problem.bodies.size());
-  }
+  check_or_none("problem.motions.size()", problem.motions.size(), "0 or problem.bodies.size()",
+                problem.bodies.size());
   if (manifolds) {
     check("impulses.points.size()", impulses.points.size(), "problem.points.size()",
           problem.points.size());
@@ -276,8 +274,7 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   if (!report.ok()) return report;
 
   // nobody else looks at them
-  const bool seen =
-      !problem.motions.empty() && !(problem.joints.empty() && problem.manifolds.empty());
+  const bool seen = !problem.motions.empty();
   const auto body = [&](int i) {
     const bool finite = !seen || Finite(problem.motions[i]);
     return finite ? CheckBody(problem.bodies[i]) : Status::kNotFinite;

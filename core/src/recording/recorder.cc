@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <new>
 #include <system_error>
 
 namespace cairn {
@@ -94,6 +95,15 @@ bool Recorder::Begin(const ContactProblem& problem, const Impulses& start) {
 }
 
 void Recorder::End(const Settings& settings, const Report& report) {
+  try {
+    Write(settings, report);
+  } catch (const std::bad_alloc&) {
+    // the step is solved all the same
+    Fail("out of memory");
+  }
+}
+
+void Recorder::Write(const Settings& settings, const Report& report) {
   recording_.frame = next_path_.empty() ? frame_ : next_frame_;
   recording_.settings = settings;
   recording_.settings.tuning.spans = nullptr;

@@ -312,7 +312,11 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   std::vector<StepFields> step;
   contents.Read(kStep, &step);
   std::vector<double> strains;
+  std::vector<std::uint32_t> errors;
+  std::vector<std::uint8_t> speeds;
   contents.Read(kStrains, &strains);
+  contents.Read(kJointErrors, &errors);
+  contents.Read(kPointSpeeds, &speeds);
   contents.Expect(kMotions, read.motions.empty() ? 0 : read.bodies.size());
   contents.Expect(kRowImpulses, read.rows.size());
   contents.Expect(kPointImpulses, read.points.size());
@@ -321,6 +325,8 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   contents.Expect(kJointImpulses, read.joint_rows.size());
   contents.Expect(kStep, 1);
   contents.Expect(kStrains, strains.empty() ? 0 : read.bodies.size());
+  contents.Expect(kJointErrors, errors.empty() ? 0 : read.joints.size());
+  contents.Expect(kPointSpeeds, speeds.empty() ? 0 : read.manifolds.size());
   if (!contents.status().ok()) return contents.status();
   if (source.size() > kMostSourceBytes) {
     return Fault(RecordingFault::kBadLayout,
@@ -335,8 +341,11 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
     read.time_step = fields.time_step;
     read.settings.substeps = fields.substeps;
     read.settings.geometric_stiffness = fields.geometric_stiffness;
+    read.settings.relax = fields.relax;
   }
   for (std::size_t i = 0; i < strains.size(); ++i) read.bodies[i].strain = strains[i];
+  for (std::size_t i = 0; i < errors.size(); ++i) read.joints[i].errors = errors[i];
+  for (std::size_t i = 0; i < speeds.size(); ++i) read.manifolds[i].speeds = speeds[i];
   *recording = std::move(read);
   return {};
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -124,6 +125,16 @@ RecordingStatus Check(const Recording& recording) {
   return {};
 }
 
+/// Fields that few problems use: none if all are 0.
+template <class Field, class Entry>
+std::vector<Field> FieldsOf(const std::vector<Entry>& entries, Field Entry::*field) {
+  const auto is_used = [field](const Entry& entry) { return entry.*field != 0; };
+  std::vector<Field> fields;
+  if (std::none_of(entries.begin(), entries.end(), is_used)) return fields;
+  for (const Entry& entry : entries) fields.push_back(entry.*field);
+  return fields;
+}
+
 void AddSections(const Recording& recording, SectionWriter* to) {
   const auto text = reinterpret_cast<const std::uint8_t*>(recording.source.data());
   const FrameNumber frame{recording.frame};
@@ -145,15 +156,14 @@ void AddSections(const Recording& recording, SectionWriter* to) {
   to->Add(kJointRows, std::span(recording.joint_rows));
   to->Add(kJointImpulses, std::span(recording.joint_impulses));
   const StepFields step{recording.time_step, recording.settings.substeps,
-                        recording.settings.geometric_stiffness};
+                        recording.settings.geometric_stiffness, recording.settings.relax};
   to->Add(kStep, std::span(&step, 1));
-  std::vector<double> strains;
-  for (const Body& body : recording.bodies) {
-    if (body.strain == 0 && strains.empty()) continue;
-    strains.resize(recording.bodies.size());
-    strains[&body - recording.bodies.data()] = body.strain;
-  }
-  to->Add(kStrains, std::span<const double>(strains));
+  const auto add = [to](Section section, const auto& fields) {
+    to->Add(section, std::span(fields.data(), fields.size()));
+  };
+  add(kStrains, FieldsOf(recording.bodies, &Body::strain));
+  add(kJointErrors, FieldsOf(recording.joints, &Joint::errors));
+  add(kPointSpeeds, FieldsOf(recording.manifolds, &Manifold::speeds));
 }
 
 }  // namespace

@@ -148,6 +148,11 @@ void Visit(float& value, Io& io) {
 }
 
 template <class Io>
+void Visit(std::uint32_t& value, Io& io) {
+  io.U32(value);
+}
+
+template <class Io>
 void Visit(std::uint8_t& value, Io& io) {
   io.U8(value);
 }
@@ -206,8 +211,8 @@ void Visit(Settings& settings, Io& io) {
   if (!steps) k_sm = 0;         // as files have it
   static_cast<void>(substeps);  // have sections of their own
   static_cast<void>(geometric_stiffness);
+  static_cast<void>(relax);
   static_cast<void>(replay);
-  static_cast<void>(relax);  // frames are solved again without
   static_cast<void>(quiet_speed);
   static_cast<void>(executor);
   static_cast<void>(spans);

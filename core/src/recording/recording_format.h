@@ -12,8 +12,8 @@
 namespace cairn {
 
 /// Written, and the oldest that is read: it knew no joints. The second knew no substeps, the third
-/// no geometric stiffness.
-inline constexpr std::uint32_t kRecordingVersion = 4, kOldestVersion = 1;
+/// no geometric stiffness, the fourth not which errors are taken back.
+inline constexpr std::uint32_t kRecordingVersion = 5, kOldestVersion = 1;
 /// Where earlier ones have Tuning::units_per_metre there is something else.
 inline constexpr std::uint32_t kVersionOfUnits = 4;
 /// No text begins like that, and whatever rewrites line ends destroys it.
@@ -45,16 +45,19 @@ enum Section {
   kJointImpulses,
   kStep,
   kStrains,
+  kJointErrors,
+  kPointSpeeds,
   kSections
 };
 /// That a version knows: the first ones.
 inline constexpr int SectionsOf(std::uint32_t version) {
-  return version == 1 ? kJoints : version == 2 ? kStep : kSections;
+  constexpr int kKnown[] = {kJoints, kStep, kJointErrors, kJointErrors, kSections};
+  return kKnown[version - kOldestVersion];
 }
 
 inline constexpr std::array<std::string_view, kSections> kSectionNames = {
-    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP", "MANI",
-    "PNTS", "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP", "STEP", "STRN"};
+    "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP", "MANI", "PNTS",
+    "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP", "STEP", "STRN", "JERR", "PSPD"};
 
 /// Adds up the bytes of fields.
 class FieldCounter {
@@ -90,11 +93,12 @@ std::size_t EntrySize() {
   return counter.bytes();
 }
 
-/// How long the step is, how it is cut, and whether that is too long for tension.
+/// How long the step is, how it is cut, whether that is too long for tension, and whether errors
+/// are taken back without velocity.
 struct StepFields {
   double time_step = 0;
   int substeps = 1;
-  bool geometric_stiffness = false;
+  bool geometric_stiffness = false, relax = false;
 };
 
 template <class Io>
@@ -102,7 +106,8 @@ void Visit(StepFields& step, Io& io) {
   io.F64(step.time_step);
   io.I32(step.substeps);
   io.Flag(step.geometric_stiffness);
-  io.Zeros(3);
+  io.Flag(step.relax);
+  io.Zeros(2);
 }
 
 struct FrameNumber {

@@ -164,9 +164,11 @@ bool BudgetMeter::Late(double sweep_units) {
 
 Deadline BudgetMeter::StepDeadline() const {
   if (budget_.kind() != Budget::Kind::kTime) return {};
-  const Nanoseconds now = Now();
-  const Nanoseconds left(std::llround(std::max(0.0, TimeLeft(now))));
-  return {clock_, start_ + now + left};
+  const Nanoseconds passed = Now(), now = start_ + passed;
+  // a budget may be as long as there are nanoseconds
+  const Nanoseconds most = Nanoseconds::max() - std::max(now, Nanoseconds(0));
+  const double left = std::max(0.0, TimeLeft(passed));
+  return {clock_, now + (left < ToDouble(most) ? Nanoseconds(std::llround(left)) : most)};
 }
 
 bool BudgetMeter::ReplaysGivingUp() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -27,7 +28,7 @@ class ThreadExecutor final : public Executor {
   }
 
   void Submit(void (*work)(void*), void* what) override {
-    if (static_cast<int>(threads_.size()) < most_) threads_.emplace_back([this] { Work(); });
+    if (static_cast<int>(threads_.size()) < most_) AddThread();
     {
       const std::lock_guard lock(mutex_);
       tasks_.push_back({work, what});
@@ -36,6 +37,15 @@ class ThreadExecutor final : public Executor {
   }
 
  private:
+  void AddThread() {
+    try {
+      threads_.emplace_back([this] { Work(); });
+    } catch (const std::system_error&) {
+      // there are no more to be had: those that there are, or the caller, do the work
+      most_ = static_cast<int>(threads_.size());
+    }
+  }
+
   struct Task {
     void (*work)(void*);
     void* what;

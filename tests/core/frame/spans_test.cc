@@ -83,6 +83,30 @@ TEST(Spans, NameEverySweepASweep) {
   EXPECT_EQ(sweeps, (std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
+TEST(Spans, AreNotTakenDownByASolveThatHasNoRecorder) {
+  Settings settings = test::Coloured(3);
+  settings.threads = 4;
+  const test::Scene large = test::Wall(40, 20), small = test::Wall(3, 3);
+  Solver solver(settings);
+  const auto solve = [&solver](const test::Scene& scene) {
+    std::vector<double> impulses(scene.rows.size());
+    std::vector<Velocity> velocities(scene.bodies.size());
+    ASSERT_TRUE(solver.Solve(scene.problem(), {.rows = impulses}, velocities).ok());
+  };
+  SpanRecorder recorder(4, 10000);
+  solver.settings().tuning.spans = &recorder;
+  solve(large);
+  recorder.Clear();
+  solver.settings().tuning.spans = nullptr;
+  solve(small);
+  EXPECT_EQ(recorder.spans(0).size(), 0);
+  // and the other way round
+  solve(large);
+  solver.settings().tuning.spans = &recorder;
+  solve(small);
+  EXPECT_GT(recorder.spans(0).size(), 0);
+}
+
 TEST(Spans, OfASolveAreThoseOfItsPhasesAndChangeNoBit) {
   const test::Scene scene = test::Wall(40, 20);
   for (const int threads : {1, 3}) {

@@ -234,18 +234,23 @@ TEST(Validate, AParentMayNameTheSameBodiesTheOtherWayRound) {
   EXPECT_TRUE(test::Solve(Settings{}, scene).report.ok());
 }
 
-// Nobody looks at motions of rows alone, be there too few of them.
-TEST(Validate, LooksForABadFieldWhereThereIsOne) {
+TEST(Validate, WantsMotionsOfAllBodiesAlsoWhereThereAreRowsAlone) {
   Scene scene = GoodScene();
-  scene.bodies[2].inv_mass = -1;
-  const std::vector<ContactMotion> motions(1);
+  std::vector<ContactMotion> motions(1);
   ContactProblem problem = scene.problem();
   problem.motions = motions;
   std::vector<double> impulses(scene.rows.size());
   std::vector<Velocity> velocities(scene.bodies.size());
   Solver solver;
   const Report report = solver.Solve(problem, {.rows = impulses}, velocities);
-  EXPECT_EQ(Describe(report), "body 2: inv_mass is -1, must be 0 or more");
+  EXPECT_EQ(Describe(report),
+            "problem.motions.size() is 1, must be 0 or problem.bodies.size()");
+
+  motions.resize(scene.bodies.size());
+  motions[2].free_spin[1] = std::numeric_limits<float>::infinity();
+  problem.motions = motions;
+  EXPECT_EQ(Describe(solver.Solve(problem, {.rows = impulses}, velocities)),
+            "body 2: motions.free_spin is inf, must be finite");
 }
 
 TEST(Validate, NamesTheFirstOffenderAndBodiesBeforeRows) {

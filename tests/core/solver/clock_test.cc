@@ -212,6 +212,16 @@ TEST(Meter, IsLateWhereWhatIsSetAsideLeavesNothing) {
   EXPECT_FALSE(work.Late(1e9));
 }
 
+TEST(Meter, GivesStepsAllTheTimeThatThereIs) {
+  WorkPrices prices;
+  for (const nanoseconds start :
+       {nanoseconds(5), nanoseconds(0), -nanoseconds(std::chrono::hours(1))}) {
+    const ScriptedClock clock([start](int look) { return start + microseconds(look); });
+    const BudgetMeter meter(Budget::Time(nanoseconds::max()), 1, &prices, &clock);
+    EXPECT_FALSE(meter.StepDeadline().Pass());
+  }
+}
+
 TEST(Meter, LearnsOfAStepThatWasGivenUpWhatItTakesAtLeast) {
   WorkPrices prices{.step_ns = 1, .can_give_up_steps = true};
   const ScriptedClock clock = test::TickingClock(microseconds(100));

@@ -221,6 +221,16 @@ TEST(Substeps, TakeThreeMotorsForNoPointThatIsHeld) {
   EXPECT_LT((end - wanted).norm(), 1e-3);
 }
 
+TEST(Substeps, LeaveImpulsesOfContactsAloneWhereThereAreNone) {
+  Body body = test::PointMass(2, Vector3d::Zero());
+  const ContactProblem problem{.bodies = {&body, 1}, .time_step = kStep};
+  std::vector<ContactImpulse> points(1000, {.normal = 3});
+  Velocity velocity;
+  Solver solver(InParts(2));
+  ASSERT_TRUE(solver.Solve(problem, {.points = points}, {&velocity, 1}).ok());
+  EXPECT_EQ(points[999].normal, 3);
+}
+
 TEST(Substeps, StayWithinABudgetOfWork) {
   Settings settings = InParts(4);
   settings.k_sm = 0;

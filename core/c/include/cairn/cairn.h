@@ -6,7 +6,7 @@
    Structs are plain data. Get each from its cairnDefault...() function, then set what differs: what
    a later version adds has its default then. Arrays are a pointer and a count; 0 of something needs
    no pointer. Nothing is kept of what a pointer points to once a function has returned, but for
-   CairnSettings::jobs and memory. No exception leaves a function. */
+   CairnSettings::jobs and memory, and the bodies of a CairnStep. No exception leaves a function. */
 #ifndef CAIRN_CAIRN_H
 #define CAIRN_CAIRN_H
 
@@ -31,7 +31,7 @@ extern "C" {
 /* What does not move, as a body. What you move yourself is a body with invMass 0 and a velocity. */
 #define CAIRN_WORLD (-1)
 
-/* What came of a call. All but cairnOk leave every output untouched. */
+/* What came of a call. All but cairnOk leave every output untouched, a CairnReport apart. */
 typedef enum CairnStatus {
   cairnOk = 0,
   cairnBadSettings,  /* a setting is out of its range; see cairnDescribeSettings() */
@@ -124,7 +124,7 @@ typedef struct CairnJoint {
   int32_t firstRow, rows;
   uint32_t bounded; /* bit i: row i has bounds */
   uint32_t angular; /* bit i: row i only turns */
-  uint32_t errors;  /* bit i: row i takes back an error of position; CairnSettings::relax */
+  uint32_t errors;  /* bit i: row i takes back an error of position */
   float damping;    /* share of free motion that rows work against; 1: all */
   bool soft;        /* rows have a compliance */
   bool opposite;    /* linearB is -linearA, whatever it says: swept faster */

@@ -73,6 +73,7 @@ class Recorder {
   const RecordedFiles& files() const { return files_; }
 
  private:
+  void Write(const Settings& settings, const Report& report);
   void Fail(std::string why);
   /// Makes the folder of this world. Empty if that cannot be done.
   std::string OwnFolder();
