@@ -5,6 +5,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "worlds/conditions/collisions.h"
 #include "worlds/conditions/locks.h"
 #include "worlds/conditions/units.h"
 #include "worlds/draft.h"
@@ -15,7 +16,8 @@ namespace {
 // Random numbers of their own for rules, world and steps: one does not change with another.
 constexpr std::uint64_t kRuleStream = 0x5bd1e9955bd1e995u, kDraftStream = 0x27d4eb2f165667c5u,
                         kStepStream = 0x9e3779b185ebca87u, kLockStream = 0xc2b2ae3d27d4eb4fu,
-                        kPlayerStream = 0xd6e8feb86659fd93u, kGroundStream = 0xa0761d6478bd642fu;
+                        kPlayerStream = 0xd6e8feb86659fd93u, kGroundStream = 0xa0761d6478bd642fu,
+                        kMouseStream = 0xe7037ed1a0b428dbu;
 
 std::uint64_t Stream(std::uint64_t seed, std::uint64_t stream) {
   return Random(seed ^ stream).Bits();
@@ -47,6 +49,8 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
   };
   if (seed.locks) LockAxes(random_of(kLockStream), &world_);
   if (seed.played) player_.emplace(random_of(kPlayerStream));
+  if (seed.dragged) mouse_.emplace(random_of(kMouseStream));
+  if (seed.colliding) LetConnectedCollide(&world_);
   if (seed.moving) moving_ground_.emplace(random_of(kGroundStream), &world_);
   if (seed.unit != 1) {
     // what happens later is in metres
@@ -67,6 +71,7 @@ void RandomWorld::Step() {
   double step = 1 / rules_.rate;
   if (rules_.uneven > 1) step *= std::pow(rules_.uneven, steps_.Within(-1, 1));
   if (player_) player_->Act(step, &world_);
+  if (mouse_) mouse_->Act(step, &world_);
   if (moving_ground_) moving_ground_->MoveTo(time_ + step);
   world_.SetTimeStep(static_cast<btScalar>(step));
   world_.Step();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "worlds/conditions/mouse.h"
 #include "worlds/conditions/moving_ground.h"
 #include "worlds/conditions/player.h"
 #include "worlds/kinds/kinds.h"
@@ -46,6 +47,7 @@ class RandomWorld {
   std::vector<Event> events_;
   size_t next_event_ = 0;
   std::optional<Player> player_;
+  std::optional<Mouse> mouse_;
   std::optional<MovingGround> moving_ground_;
   double time_ = 0;
   WorldSeed seed_;

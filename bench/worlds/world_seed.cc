@@ -17,7 +17,11 @@ std::span<const Condition> Conditions() {
        "Some eight times a second a body is pushed, thrown, spun, moved or gets another mass; no "
        "momentum then"},
       {"moving", &WorldSeed::moving, "moving ground",
-       "What is static moves instead: all together like a ship, or each by itself"}};
+       "What is static moves instead: all together like a ship, or each by itself"},
+      {"dragged", &WorldSeed::dragged, "somebody drags",
+       "Some twice a second somebody takes hold of a body and drags it about; no momentum then"},
+      {"colliding", &WorldSeed::colliding, "connected bodies collide",
+       "Bodies of a joint may collide, as addConstraint() has it by default"}};
   return conditions;
 }
 

@@ -16,7 +16,9 @@ struct WorldSeed {
   bool crowded = false;  ///< Ten times as many bodies may touch or hang on a hub.
   bool played = false;   ///< Somebody pushes, spins, moves and weighs bodies, see Player.
   bool moving = false;   ///< What is static moves instead, see MovingGround.
-  double unit = 1;       ///< Units of length in a metre, see ChangeUnits(); without events.
+  bool dragged = false;  ///< Somebody drags bodies about, see Mouse.
+  bool colliding = false;  ///< Bodies of a joint may collide, see LetConnectedCollide().
+  double unit = 1;         ///< Units of length in a metre, see ChangeUnits(); without events.
 };
 
 /// What worlds may be on top of what is drawn: one of the bools of WorldSeed. Each is an option of

@@ -153,6 +153,47 @@ TEST(Played, WorldsDoNotFlyApart) {
   EXPECT_LT(RunTrial(options, Cairn()).fastest, Trial::kTooFast);
 }
 
+// Bodies are pulled away from where they would be, and nothing stays behind.
+TEST(Dragged, BodiesFollowAMouseThatLetsGo) {
+  int pulled = 0, held = 0, steps = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto cairn = Cairn().make(), plain_solver = Cairn().make();
+    RandomWorld world({.seed = seed, .dragged = true}, cairn.get()),
+        plain({.seed = seed}, plain_solver.get());
+    EXPECT_EQ(StateHash(plain.world()), StateHash(world.world())) << seed << ": from the start on";
+    for (int frame = 0; frame < world.Frames(1); ++frame, ++steps) {
+      world.Step();
+      plain.Step();
+      const auto joints = static_cast<int>(world.world().joints().size());
+      const int more = world.world().bullet()->getNumConstraints() - joints;
+      ASSERT_GE(more, 0);
+      ASSERT_LE(more, 1);
+      held += more;
+    }
+    pulled += StateHash(plain.world()) != StateHash(world.world());
+  }
+  EXPECT_GT(pulled, 20);
+  EXPECT_GT(held, steps / 10);
+  EXPECT_LT(held, steps * 9 / 10);
+}
+
+// Bullet tells bodies of joints only where these keep them from colliding.
+TEST(Colliding, BodiesKnowNothingOfTheirJoints) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    btSequentialImpulseConstraintSolver solver;
+    RandomWorld world({.seed = seed, .colliding = true}, &solver), plain({.seed = seed}, &solver);
+    ASSERT_EQ(world.world().bullet()->getNumConstraints(),
+              plain.world().bullet()->getNumConstraints());
+    for (const btRigidBody* body : world.world().dynamic_bodies()) {
+      EXPECT_EQ(body->getNumConstraintRefs(), 0) << seed;
+    }
+    const auto joints = world.world().joints();
+    for (int i = 0; i < static_cast<int>(joints.size()); ++i) {
+      EXPECT_EQ(world.world().bullet()->getConstraint(i), joints[i]) << "in their order";
+    }
+  }
+}
+
 TEST(Moving, GroundIsKinematicAndGoesToAndFro) {
   int together = 0, apart = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
