@@ -17,7 +17,7 @@ bash bench/build-tool.sh build
 
 mkdir -p out
 run=(build/release/bin/cairn run castle
-  --solver "bullet-si,bullet-si@fit,bullet-nncg,bullet-dantzig,cairn"
+  --solver "bullet-si,bullet-si@fit,bullet-nncg,cairn"
   --budget "$budget" --frames "$frames" --samples 4
   --json out/castle.json --csv out/castle.csv --report out/castle.html "$@")
 echo "== ${run[*]}"

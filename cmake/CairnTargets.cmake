@@ -17,7 +17,8 @@ function(cairn_global)
   endforeach()
 endfunction()
 
-# Warnings, no fused multiply-add behind our back (results must not depend on the target), sanitizers.
+# Warnings where this is not part of another project, no fused multiply-add behind our back (results must not depend on
+# the target), sanitizers. Optimised also where a parent project has no build type.
 # Nobody replaces single functions of ours: else code for shared libraries could not inline them.
 function(cairn_strict target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -27,9 +28,12 @@ function(cairn_strict target)
     target_compile_options(${target} PRIVATE /W4 /permissive- /fp:precise $<$<BOOL:${CAIRN_WERROR}>:/WX>)
     return()
   endif()
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -ffp-contract=off
+  target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3 -DNDEBUG> -ffp-contract=off
                                            -fno-semantic-interposition
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
+  if(PROJECT_IS_TOP_LEVEL)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow)
+  endif()
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
     # Eigen would fuse multiplications and additions here, as it cannot on x86 without flags.
     target_compile_options(${target} PRIVATE -U__ARM_FEATURE_FMA)

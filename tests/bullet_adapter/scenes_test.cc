@@ -41,7 +41,7 @@ TEST_P(CairnOnScene, Runs600FramesWithoutNanAndNeverWorseThanSweepsAlone) {
   SceneWorld world(GetParam(), &instrumented);
   // 1e-5 m/s of all bodies, which nobody sees [sqrt(J)]
   const double unseen = 1e-5 * std::sqrt(bench::TotalMass(world.world()));
-  int compared = 0, steps = 0;
+  int compared = 0;
   for (int frame = 0; frame < 600; ++frame) {
     if (frame % 20 == 19) {
       instrumented.ProbeNext([&](bench::Substep* substep, const btContactSolverInfo& info) {
@@ -51,7 +51,6 @@ TEST_P(CairnOnScene, Runs600FramesWithoutNanAndNeverWorseThanSweepsAlone) {
         const Report& report = with_steps.report();
         // what is done is left alone, and without a step these are sweeps that build on each other
         const bool done = std::max(report.residual_max, report.residual_angular) <= 1e-4;
-        steps += report.steps_accepted;
         if (done || report.steps_accepted == 0) return;
         ++compared;
         // or as close in energy to a thousandth, and at most four times as rough; see StepTrial
@@ -67,8 +66,12 @@ TEST_P(CairnOnScene, Runs600FramesWithoutNanAndNeverWorseThanSweepsAlone) {
     ASSERT_TRUE(cairn.report().ok()) << Describe(cairn.report().status) << ", frame " << frame;
     ASSERT_TRUE(AllFinite(world.world())) << "frame " << frame;
   }
-  RecordProperty("compared", compared);
-  EXPECT_TRUE(compared > 0 || steps == 0) << steps << " steps";
+  // others converge, or take no step there
+  for (const std::string_view scene : {"castle", "wall", "tower", "heavy-top", "bridge"}) {
+    if (GetParam() == scene) {
+      EXPECT_GT(compared, 5);
+    }
+  }
 }
 
 TEST_P(CairnOnScene, GivesTheSameBitsTwice) {

@@ -243,8 +243,7 @@ TEST(Validate, WantsMotionsOfAllBodiesAlsoWhereThereAreRowsAlone) {
   std::vector<Velocity> velocities(scene.bodies.size());
   Solver solver;
   const Report report = solver.Solve(problem, {.rows = impulses}, velocities);
-  EXPECT_EQ(Describe(report),
-            "problem.motions.size() is 1, must be 0 or problem.bodies.size()");
+  EXPECT_EQ(Describe(report), "problem.motions.size() is 1, must be 0 or problem.bodies.size()");
 
   motions.resize(scene.bodies.size());
   motions[2].free_spin[1] = std::numeric_limits<float>::infinity();
