@@ -29,7 +29,7 @@ function(cairn_strict target)
     return()
   endif()
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3 -DNDEBUG> -ffp-contract=off
-                                           -fno-semantic-interposition
+                                           -fno-semantic-interposition -Wno-psabi
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow)

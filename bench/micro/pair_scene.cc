@@ -81,7 +81,7 @@ PairScene::PairScene(const RowScene& scene)
   }
   for (size_t i = 0; i < blocks_.size(); ++i) {
     const bool alike = i + 1 < blocks_.size() && Alike(blocks_[i], blocks_[i + 1]);
-    runs_.push_back({static_cast<int>(i), 0, kLanes, alike});
+    runs_.push_back({static_cast<int>(i), 0, kLanes, alike, false});
   }
   bodies_.resize(scene.bodies.size());
   errors_.resize(blocks_.size());

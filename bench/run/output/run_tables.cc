@@ -131,8 +131,8 @@ std::string ReadingHelp(const RunResult& run) {
   std::string help =
       "p50, p99, p99.9, max: time in the solver per frame, set-up and write-back included; the "
       "collision\n"
-      "detection of Bullet is not. residual: largest error left in any row (natural map, double\n"
-      "precision), mean and maximum over frames";
+      "detection of Bullet is not. residual: how far the worst row is from its law (contact,\n"
+      "friction or joint), mean and maximum over frames";
   const auto [least, most] = std::minmax_element(
       run.scenes.begin(), run.scenes.end(),
       [](const auto& a, const auto& b) { return a.observed_every < b.observed_every; });
@@ -150,6 +150,12 @@ std::string ReadingHelp(const RunResult& run) {
         "age.\n",
         sources);
   }
+  help +=
+      "steps: those that solve for many rows at once, kept or taken back; factorised: how many "
+      "matrices\n"
+      "for them. guarded: islands whose step or impulses put energy in and were undone or made "
+      "smaller.\n"
+      "fallbacks: substeps that Cairn refused and left to Bullet's own solver.\n";
   for (const SceneResult& scene : run.scenes) {
     for (const Sample& sample : scene.samples) {
       if (sample.reference_residual > 1e-5) {

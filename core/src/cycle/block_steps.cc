@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "cycle/joint_arms.h"
+#include "problem/body_name.h"
 
 namespace cairn {
 namespace {
@@ -139,7 +140,7 @@ void BlockSteps::ReadPlan() {
     if (body == kWorld) continue;
     const int island = frame_->plan().island_of_body()[body];
     set_up_[island] += kSetUpBody;
-    keys_[island] = std::min(keys_[island], IslandMemories::KeyOf(problem_->bodies[body], body));
+    keys_[island] = std::min(keys_[island], BodyNameOf(problem_->bodies[body], body));
   }
 }
 

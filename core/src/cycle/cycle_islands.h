@@ -70,7 +70,6 @@ class CycleIslands {
   IslandReport& report(int island) { return reports_[island]; }
   const IslandReport& report(int island) const { return reports_[island]; }
   std::span<const IslandProgress> states() const { return states_; }
-  std::span<const IslandReport> reports() const { return reports_; }
 
   /// By group: whether it is swept on, and how often it was.
   std::span<GroupSweeps> groups() { return groups_; }

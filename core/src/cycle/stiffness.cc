@@ -9,8 +9,8 @@
 
 #include "cairn/detail/eigen.h"
 #include "cycle/joint_arms.h"
+#include "problem/body_name.h"
 #include "simd/principal_axes.h"
-#include "step/island_memories.h"
 
 namespace cairn {
 namespace {
@@ -186,7 +186,7 @@ void GeometricStiffness::Apply(double time_step, std::span<Body> bodies,
 }
 
 GeometricStiffness::Memory* GeometricStiffness::Find(const Body& body, int place) {
-  const std::uint64_t key = IslandMemories::KeyOf(body, place);
+  const std::uint64_t key = BodyNameOf(body, place);
   const auto at = static_cast<size_t>(place);
   if (at >= key_at_.size() || key_at_[at] != key) return FindMoved(key);
   return memory_at_[at] < 0 ? nullptr : &memories_[memory_at_[at]];
@@ -211,7 +211,7 @@ void GeometricStiffness::NotePlaces(std::span<const Body> bodies) {
   key_at_.resize(bodies.size());
   memory_at_.assign(bodies.size(), -1);
   for (size_t i = 0; i < bodies.size(); ++i) {
-    key_at_[i] = IslandMemories::KeyOf(bodies[i], static_cast<int>(i));
+    key_at_[i] = BodyNameOf(bodies[i], static_cast<int>(i));
   }
   for (size_t m = 0; m < memories_.size(); ++m) {
     memory_at_[memories_[m].place] = static_cast<int>(m);
@@ -441,7 +441,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     if (!known) {
       if (memory == nullptr) memory = &fresh_.emplace_back();
       // one that is known may have been lowered
-      *memory = {.key = IslandMemories::KeyOf(body, pulled_[p]),
+      *memory = {.key = BodyNameOf(body, pulled_[p]),
                  .place = pulled_[p],
                  .inv_mass = body.inv_mass,
                  .inv_inertia = inv_inertia};

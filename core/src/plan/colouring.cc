@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "problem/body_name.h"
 #include "runtime/in_parts.h"
 
 namespace cairn {
@@ -11,8 +12,6 @@ namespace {
 
 /// As many one thread looks at at a time.
 constexpr int kPairsOfPart = 512;
-/// Names of bodies without an id begin here.
-constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
 
 int KindOf(const Pair& pair) { return (pair.contact ? 2 : 0) + (pair.b == kWorld ? 1 : 0); }
 
@@ -77,7 +76,7 @@ bool Colouring::IsOfHub(const Pair& pair, int colours) const {
 void Colouring::Recognise(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew) {
   body_names_.resize(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
-    body_names_[i] = bodies[i].id != 0 ? bodies[i].id : kUnnamed + i;
+    body_names_[i] = BodyNameOf(bodies[i], static_cast<int>(i));
   }
   masks_.assign(bodies.size(), {});
   colours_.resize(pairs.size());

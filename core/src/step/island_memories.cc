@@ -3,23 +3,19 @@
 
 #include <algorithm>
 
+#include "problem/body_name.h"
+
 namespace cairn {
 namespace {
 
 /// Frames an island may be absent before what was learnt about it is dropped.
 constexpr int kForgetAfter = 120;
-/// Keys of islands without names begin here.
-constexpr std::uint64_t kUnnamed = std::uint64_t{1} << 63;
 
 }  // namespace
 
-std::uint64_t IslandMemories::KeyOf(const Body& body, int place) {
-  return body.id != 0 ? body.id : kUnnamed + static_cast<std::uint64_t>(place);
-}
-
 IslandMemory* IslandMemories::Recall(const ContactProblem& problem, std::span<const int> bodies) {
   std::uint64_t key = ~std::uint64_t{0};
-  for (int body : bodies) key = std::min(key, KeyOf(problem.bodies[body], body));
+  for (int body : bodies) key = std::min(key, BodyNameOf(problem.bodies[body], body));
   return Recall(key, bodies.empty() ? -1 : bodies.front());
 }
 

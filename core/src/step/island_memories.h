@@ -17,10 +17,8 @@ namespace cairn {
 /// What was learnt about each island, from frame to frame.
 class IslandMemories {
  public:
-  /// What a body is known by: its name, or its place without one.
-  static std::uint64_t KeyOf(const Body& body, int place);
-  /// The memory of an island, by the smallest key of its bodies and the place of the first. It
-  /// stays where it is until EndFrame().
+  /// The memory of an island, by the smallest BodyNameOf() of its bodies and the place of the
+  /// first. It stays where it is until EndFrame().
   IslandMemory* Recall(std::uint64_t key, int first_body);
   /// The same. @p bodies: ascending
   IslandMemory* Recall(const ContactProblem& problem, std::span<const int> bodies);
