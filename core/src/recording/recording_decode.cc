@@ -232,6 +232,14 @@ class Contents {
       if (!reader.in_range()) return Refuse(section, i);
     }
   }
+  /// Fields that are left out where all of them are 0.
+  template <class T>
+  void ReadIfUsed(Section section, std::vector<T>* fields) {
+    Read(section, fields);
+    const auto is_used = [](const T& field) { return field != 0; };
+    if (!status_.ok() || fields->empty()) return;
+    if (std::none_of(fields->begin(), fields->end(), is_used)) Refuse(section, 0);
+  }
   template <class T>
   void ReadOne(Section section, T* value) {
     std::vector<T> values;
@@ -314,9 +322,9 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   std::vector<double> strains;
   std::vector<std::uint32_t> errors;
   std::vector<std::uint8_t> speeds;
-  contents.Read(kStrains, &strains);
-  contents.Read(kJointErrors, &errors);
-  contents.Read(kPointSpeeds, &speeds);
+  contents.ReadIfUsed(kStrains, &strains);
+  contents.ReadIfUsed(kJointErrors, &errors);
+  contents.ReadIfUsed(kPointSpeeds, &speeds);
   contents.Expect(kMotions, read.motions.empty() ? 0 : read.bodies.size());
   contents.Expect(kRowImpulses, read.rows.size());
   contents.Expect(kPointImpulses, read.points.size());

@@ -263,6 +263,13 @@ TEST(Recording, KeepsWhichErrorsAreTakenBack) {
   EXPECT_EQ(read.joints[0].errors, 0u);
   EXPECT_EQ(read.joints[1].errors, 0x80000005u);
   EXPECT_EQ(read.manifolds[0].speeds, 9);
+
+  // no writer writes zeros alone
+  Bytes zeros = bytes;
+  PutNumber(0, DataOf(bytes, "JERR") + 4, 4, &zeros);
+  test::RepairChecksums(&zeros);
+  Recording none;
+  EXPECT_EQ(Decode(zeros, &none).fault, RecordingFault::kBadValue);
 }
 
 TEST(Recording, KeepsTheStepAndWhatStrains) {
