@@ -34,15 +34,9 @@ struct Colour {
 /// their place in the problem) and by being a contact or not.
 class Colouring {
  public:
-  /// The colour of each pair. Depends on the pairs of this and of earlier calls alone: those that
-  /// are known keep theirs, new ones take the lowest that is free, in the order of @p pairs.
-  void Update(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew) {
-    Recognise(bodies, pairs, crew);
-    Colour(pairs);
-    Prepare();
-  }
-  /// Its parts: what several threads can do, what one can, and what nobody needs before the next
-  /// call.
+  /// The colour of each pair, in three parts: what several threads can do, what one can, and what
+  /// nobody needs before the next time. Depends on the pairs of this and of earlier times alone:
+  /// those that are known keep theirs, new ones take the lowest that is free, in their order.
   void Recognise(std::span<const Body> bodies, std::span<const Pair> pairs, Crew* crew);
   void Colour(std::span<const Pair> pairs);
   void Prepare();

@@ -93,9 +93,8 @@ class BlockSweeps::Pass final : public StagedWork {
 
   void Work(int sweep, int group, int first_block, int blocks) {
     if (!groups_[group].active) return;
-    simd::PairWork work = sweeps_.frame_->WorkOn(plan().groups()[group], first_block, blocks);
-    work.sweep = groups_[group].sweeps + sweep;
-    work.hold_lifted = sweeps_.settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
+    const simd::PairWork work =
+        sweeps_.WorkOn(plan().groups()[group], first_block, blocks, groups_[group].sweeps + sweep);
     const simd::PairKernels& kernels = sweeps_.frame_->kernels();
     switch (kind_) {
       case Kind::kMeasure:
@@ -187,6 +186,14 @@ class BlockSweeps::Pass final : public StagedWork {
   std::int64_t rows_ = 0;    ///< of it, under a budget
 };
 
+simd::PairWork BlockSweeps::WorkOn(const Group& group, int first_block, int blocks,
+                                   int sweeps_made) const {
+  simd::PairWork work = frame_->WorkOn(group, first_block, blocks);
+  work.sweep = sweeps_made;
+  work.hold_lifted = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
+  return work;
+}
+
 bool BlockSweeps::InOneGo() const { return crew_->alone() && !meter_->limited(); }
 
 void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& kernels) {
@@ -197,10 +204,8 @@ void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& ker
   for (size_t g = 0; g < groups.size(); ++g) {
     if (!groups[g].active) continue;
     const Group& group = plan.groups()[g];
-    simd::PairWork work = frame_->WorkOn(group, group.first_block, group.blocks);
-    work.hold_lifted = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
-    for (int k = 0; k < kernels.count; ++k) {
-      work.sweep = groups[g].sweeps + k;
+    simd::PairWork work = WorkOn(group, group.first_block, group.blocks, groups[g].sweeps);
+    for (int k = 0; k < kernels.count; ++k, ++work.sweep) {
       (k == kernels.count - 1 ? kernels.last : kernels.others)(work);
     }
   }
@@ -208,10 +213,7 @@ void BlockSweeps::GoOver(std::span<const GroupSweeps> groups, const Kernels& ker
 
 void BlockSweeps::SweepGroup(int group, int sweeps_made) {
   const Group& of = frame_->plan().groups()[group];
-  simd::PairWork work = frame_->WorkOn(of, of.first_block, of.blocks);
-  work.hold_lifted = settings_.tuning.lifted_friction == detail::LiftedFriction::kHold;
-  work.sweep = sweeps_made;
-  frame_->kernels().measured_sweep(work);
+  frame_->kernels().measured_sweep(WorkOn(of, of.first_block, of.blocks, sweeps_made));
 }
 
 void BlockSweeps::SweepInOneGo(int count, std::span<GroupSweeps> groups) {

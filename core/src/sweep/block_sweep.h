@@ -61,6 +61,8 @@ class BlockSweeps {
     int count;
     simd::PairKernels::Kernel others, last;
   };
+  /// Some blocks of a group, as the next kernel is to see them.
+  simd::PairWork WorkOn(const Group& group, int first_block, int blocks, int sweeps_made) const;
   /// Over each active group so often before the next one: it stays in the cache.
   void GoOver(std::span<const GroupSweeps> groups, const Kernels& kernels);
   void SweepInOneGo(int count, std::span<GroupSweeps> groups);

@@ -13,6 +13,7 @@
 #include <deque>
 #include <mutex>
 #include <random>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -166,6 +167,27 @@ TEST(TaskScheduler, DoesALoopInALoopWhereItIsMet) {
   outer.ExpectEach(1);
   inner.ExpectEach(outer.loops());
   EXPECT_GE(outer.loops(), 1);
+}
+
+/// Throws at one index.
+class Throws final : public btIParallelForBody {
+ public:
+  void forLoop(int begin, int end) const override {
+    if (begin <= 150 && 150 < end) throw std::runtime_error("150");
+  }
+};
+
+TEST(TaskScheduler, GoesOnAfterALoopThatThrew) {
+  for (Executor* const executor : {static_cast<Executor*>(nullptr), SharedJobs()}) {
+    Scheduled scheduled(3, executor);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_THROW(scheduled.scheduler().parallelFor(0, 300, 10, Throws()), std::runtime_error);
+      EXPECT_FALSE(btThreadsAreRunning());
+      const Marks marks(300);
+      scheduled.scheduler().parallelFor(0, 300, 10, marks);
+      marks.ExpectEach(1);
+    }
+  }
 }
 
 /// 1, 1/2, 1/3 ...: sums of floats that differ where their order does.

@@ -36,10 +36,17 @@ std::vector<Body> Named(int count) {
   return bodies;
 }
 
+/// All that a plan asks of it.
+void Update(const std::vector<Body>& bodies, const Pairs& pairs, Crew* crew, Colouring* colouring) {
+  colouring->Recognise(bodies, pairs, crew);
+  colouring->Colour(pairs);
+  colouring->Prepare();
+}
+
 std::vector<int> ColoursOf(Colouring* colouring, const std::vector<Body>& bodies,
                            const Pairs& pairs) {
   Crew alone(1);
-  colouring->Update(bodies, pairs, &alone);
+  Update(bodies, pairs, &alone, colouring);
   return {colouring->colours().begin(), colouring->colours().end()};
 }
 
@@ -230,11 +237,11 @@ TEST(Colouring, SaysWhereEachPairWasBefore) {
   const std::vector<Body> bodies = Named(6);
   Colouring colouring;
   Crew alone(1);
-  colouring.Update(bodies, Pairs{Contact(0, 1), Contact(1, 2), Joint(1, 2), Contact(3, kWorld)},
-                   &alone);
+  Update(bodies, {Contact(0, 1), Contact(1, 2), Joint(1, 2), Contact(3, kWorld)}, &alone,
+         &colouring);
   EXPECT_EQ(std::vector<int>(4, -1), Ints(colouring.before()));
-  colouring.Update(bodies, Pairs{Contact(3, kWorld), Contact(4, 5), Contact(2, 1), Joint(1, 2)},
-                   &alone);
+  Update(bodies, {Contact(3, kWorld), Contact(4, 5), Contact(2, 1), Joint(1, 2)}, &alone,
+         &colouring);
   EXPECT_EQ((std::vector<int>{3, -1, 1, 2}), Ints(colouring.before()));
 }
 
@@ -267,7 +274,7 @@ TEST(Colouring, FindsPairsThatShareANameInTheOrderOfTheList) {
       expected.push_back(static_cast<int>(at));
       next = at + 1;
     }
-    colouring.Update(bodies, pairs, &crew);
+    Update(bodies, pairs, &crew, &colouring);
     EXPECT_EQ(Ints(colouring.before()), expected) << call;
     last = pairs;
     for (int event = 0; event < 30; ++event) {
