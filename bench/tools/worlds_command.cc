@@ -121,8 +121,9 @@ bench::CampaignOptions Check(const WorldsWords& words) {
   options.trial.world.unit =
       ParseNumber("--unit", words.unit, 1e-3, 1e4, "units of length in a metre");
   const bench::WorldSeed& on = words.conditions;
-  if (options.trial.world.unit != 1 && (on.played || on.moving || on.dragged)) {
-    throw Failure(kUsage, "--unit goes without --played, --dragged and --moving: in metres");
+  if (options.trial.world.unit != 1 && (on.played || on.moving || on.dragged || on.pressed)) {
+    throw Failure(kUsage,
+                  "--unit goes without --played, --dragged, --pressed and --moving: in metres");
   }
   const int cores = std::max(1u, std::thread::hardware_concurrency());
   options.jobs = words.jobs.empty()

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kRuleStream = 0x5bd1e9955bd1e995u, kDraftStream = 0x27d4eb2f165667c5u,
                         kStepStream = 0x9e3779b185ebca87u, kLockStream = 0xc2b2ae3d27d4eb4fu,
                         kPlayerStream = 0xd6e8feb86659fd93u, kGroundStream = 0xa0761d6478bd642fu,
-                        kMouseStream = 0xe7037ed1a0b428dbu;
+                        kMouseStream = 0xe7037ed1a0b428dbu, kPressStream = 0x8ebc6af09c88c6e3u;
 
 std::uint64_t Stream(std::uint64_t seed, std::uint64_t stream) {
   return Random(seed ^ stream).Bits();
@@ -50,6 +50,7 @@ RandomWorld::RandomWorld(const WorldSeed& seed, btConstraintSolver* solver)
   if (seed.locks) LockAxes(random_of(kLockStream), &world_);
   if (seed.played) player_.emplace(random_of(kPlayerStream));
   if (seed.dragged) mouse_.emplace(random_of(kMouseStream));
+  if (seed.pressed) press_.emplace(random_of(kPressStream), rules_.surface);
   if (seed.colliding) LetConnectedCollide(&world_);
   if (seed.moving) moving_ground_.emplace(random_of(kGroundStream), &world_);
   if (seed.unit != 1) {
@@ -72,6 +73,7 @@ void RandomWorld::Step() {
   if (rules_.uneven > 1) step *= std::pow(rules_.uneven, steps_.Within(-1, 1));
   if (player_) player_->Act(step, &world_);
   if (mouse_) mouse_->Act(step, &world_);
+  if (press_) press_->Act(step, &world_);
   if (moving_ground_) moving_ground_->MoveTo(time_ + step);
   world_.SetTimeStep(static_cast<btScalar>(step));
   world_.Step();

@@ -9,6 +9,7 @@
 #include "worlds/conditions/mouse.h"
 #include "worlds/conditions/moving_ground.h"
 #include "worlds/conditions/player.h"
+#include "worlds/conditions/press.h"
 #include "worlds/kinds/kinds.h"
 #include "worlds/world_seed.h"
 
@@ -48,6 +49,7 @@ class RandomWorld {
   size_t next_event_ = 0;
   std::optional<Player> player_;
   std::optional<Mouse> mouse_;
+  std::optional<Press> press_;
   std::optional<MovingGround> moving_ground_;
   double time_ = 0;
   WorldSeed seed_;

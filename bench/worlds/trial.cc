@@ -37,7 +37,8 @@ class Run {
       random_.world().solver_info().m_numIterations = variant.iterations;
     }
     if (cairn_ != nullptr) cairn_->settings().threads = options.threads;
-    const bool kept = !options.world.locks && !options.world.played && !options.world.dragged;
+    const bool kept = !options.world.locks && !options.world.played && !options.world.dragged &&
+                      !options.world.pressed;
     if (random_.kind().floats && kept) momentum_.emplace().Listen(&random_.world());
   }
 

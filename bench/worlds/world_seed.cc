@@ -20,6 +20,8 @@ std::span<const Condition> Conditions() {
        "What is static moves instead: all together like a ship, or each by itself"},
       {"dragged", &WorldSeed::dragged, "somebody drags",
        "Some twice a second somebody takes hold of a body and drags it about; no momentum then"},
+      {"pressed", &WorldSeed::pressed, "plates press",
+       "Two plates close on all bodies, again and again; no momentum then"},
       {"colliding", &WorldSeed::colliding, "connected bodies collide",
        "Bodies of a joint may collide, as addConstraint() has it by default"}};
   return conditions;

@@ -17,6 +17,7 @@ struct WorldSeed {
   bool played = false;   ///< Somebody pushes, spins, moves and weighs bodies, see Player.
   bool moving = false;   ///< What is static moves instead, see MovingGround.
   bool dragged = false;  ///< Somebody drags bodies about, see Mouse.
+  bool pressed = false;  ///< Plates close on all bodies and open again, see Press.
   bool colliding = false;  ///< Bodies of a joint may collide, see LetConnectedCollide().
   double unit = 1;         ///< Units of length in a metre, see ChangeUnits(); without events.
 };

@@ -96,7 +96,7 @@ class WorldsTest(CairnTest):
 
     def test_conditions_are_said_and_those_in_metres_have_no_units(self):
         for name, words in (("played", "somebody plays"), ("dragged", "somebody drags"),
-                            ("moving", "moving ground")):
+                            ("moving", "moving ground"), ("pressed", "plates press")):
             text = self.worlds("--seed", BRIDGE, "--report", "--seconds", "0.2", "--" + name)
             self.assertIn(", " + words, text)
             said = self.refused(USAGE, "worlds", "--seed", "1", "--unit", "100", "--" + name)

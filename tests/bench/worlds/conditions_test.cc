@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scenes/facts.h"
@@ -175,6 +176,36 @@ TEST(Dragged, BodiesFollowAMouseThatLetsGo) {
   EXPECT_GT(pulled, 20);
   EXPECT_GT(held, steps / 10);
   EXPECT_LT(held, steps * 9 / 10);
+}
+
+int Kinematic(const World& world) {
+  const btCollisionObjectArray& objects = world.bullet()->getCollisionObjectArray();
+  int count = 0;
+  for (int i = 0; i < objects.size(); ++i) count += objects[i]->isKinematicObject() ? 1 : 0;
+  return count;
+}
+
+// Two plates at a time, which come, press and go.
+TEST(Pressed, PlatesPressBodiesAndGoAgain) {
+  int presses = 0, pressed = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto cairn = Cairn().make(), plain_solver = Cairn().make();
+    RandomWorld world({.seed = seed, .pressed = true}, cairn.get()),
+        plain({.seed = seed}, plain_solver.get());
+    EXPECT_EQ(StateHash(plain.world()), StateHash(world.world())) << seed << ": from the start on";
+    int plates = 0;
+    for (int frame = 0; frame < world.Frames(3); ++frame) {
+      world.Step();
+      plain.Step();
+      const int before = std::exchange(plates, Kinematic(world.world()));
+      ASSERT_TRUE(plates == 0 || plates == 2);
+      presses += before == 0 && plates == 2;
+    }
+    pressed += StateHash(plain.world()) != StateHash(world.world());
+    EXPECT_EQ(world.world().dynamic_bodies().size(), plain.world().dynamic_bodies().size());
+  }
+  EXPECT_GT(presses, 50);
+  EXPECT_GT(pressed, 30);
 }
 
 // Bullet tells bodies of joints only where these keep them from colliding.
