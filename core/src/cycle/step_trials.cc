@@ -108,7 +108,10 @@ void StepTrials::FindHarm() {
   for (int i : stepped_) {
     const Merit &before = merits_before_.of(i), &after = merits_with_step_.of(i);
     const double error = unit * Largest(before_[i], unit);
-    const bool harmful = after.is_worse_than_none() || IsTooMuch(steps.result(i).joint_speed) ||
+    const bool squeezed =
+        !steps.HasJoints(i) && IsSqueezed({before_[i].energy, with_step_[i].energy, before, after});
+    const bool harmful = squeezed || after.is_worse_than_none() ||
+                         IsTooMuch(steps.result(i).joint_speed) ||
                          IsTooViolent(before, after, steps.mass(i), error) ||
                          IsFlung(steps.before(i), steps.after(i), steps.mass(i), error);
     if (harmful) verdicts_[i] = Verdict::kHarmful;

@@ -44,8 +44,8 @@ class StepTrials {
   /// Residuals of the islands of the groups that are chosen.
   void Measure(Array<Residual>* residuals);
   void Choose(std::span<const int> islands);
-  /// Marks steps that put in energy, threw or flung bodies, or left impulses that floats cannot
-  /// hold.
+  /// Marks steps that put in energy, threw, flung or squeezed bodies, or left impulses that floats
+  /// cannot hold.
   void FindHarm();
   /// A step did so much that sweeps alone need not be tried.
   bool IsSure(int island);

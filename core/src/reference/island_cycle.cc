@@ -149,21 +149,25 @@ void IslandCycle::StepRound(BudgetMeter* meter) {
   // judged after sweeps: before them, nearly every good step looks worse
   Sweeps(SweepsOfRound(), meter);
   memory_->SawJoints(result);
-  const Merit merit = MeasureMerit(island_, at_.state);
+  const Merit merit_before = MeasureMerit(island_, before.state),
+              merit = MeasureMerit(island_, at_.state);
   const double error = unit * Largest(residual_, unit);
-  const bool violent =
-      IsTooViolent(MeasureMerit(island_, before.state), merit, island_.mass, error);
+  const bool violent = IsTooViolent(merit_before, merit, island_.mass, error);
   const IslandMotion motion_before =
       LargerOf(MeasureMotion(island_, before.state, 0), MeasureMotion(island_, before.state, 1));
   const bool flung =
       IsFlung(motion_before, MeasureMotion(island_, at_.state, 1), island_.mass, error);
-  const bool worse = merit.is_worse_than_none();
-  const bool sound = !guards_ || !(worse || violent || flung || IsTooMuch(result.joint_speed));
+  const Residual with_step = MeasureNow(meter);
+  const bool squeezed =
+      !joints_ && IsSqueezed({residual_.energy, with_step.energy, merit_before, merit});
+  const bool harmful =
+      squeezed || violent || flung || merit.is_worse_than_none() || IsTooMuch(result.joint_speed);
+  const bool sound = !guards_ || !harmful;
   if (!sound) {
     report_.guards.step = true;
     memory_->Guarded();
   }
-  if (result.solved && KeepBetter(before, sound, meter)) {
+  if (result.solved && KeepBetter(before, sound, with_step, meter)) {
     memory_->Accepted();
     ++report_.steps_accepted;
   } else {
@@ -172,8 +176,8 @@ void IslandCycle::StepRound(BudgetMeter* meter) {
   }
 }
 
-bool IslandCycle::KeepBetter(Point before, bool sound, BudgetMeter* meter) {
-  const Residual with_step = MeasureNow(meter);
+bool IslandCycle::KeepBetter(Point before, bool sound, const Residual& with_step,
+                             BudgetMeter* meter) {
   if (sound && with_step.energy <= kSureGain * residual_.energy) return true;
 
   // the same number of sweeps without the step, as far as the budget goes

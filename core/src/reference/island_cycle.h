@@ -46,7 +46,7 @@ class IslandCycle {
   void StepRound(BudgetMeter* meter);
   /// After a step: keeps it, or the same number of sweeps from @p before alone.
   /// @p sound: it may be kept
-  bool KeepBetter(Point before, bool sound, BudgetMeter* meter);
+  bool KeepBetter(Point before, bool sound, const Residual& with_step, BudgetMeter* meter);
   /// Scales impulses that are worse than none; whether they were.
   bool GuardState();
   /// See SettlesFriction().

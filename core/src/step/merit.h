@@ -57,6 +57,21 @@ inline bool IsTooMuch(double joint_speed) { return !(joint_speed <= 1e6); }
 /// that the impulses do: what is small beside them may have any ratio to an error that is smaller.
 bool IsTooViolent(const Merit& before, const Merit& after, double mass, double error);
 
+/// What a step did to an island: Residual::energy and phi before and after it.
+struct StepEffect {
+  double error_before, error_after;
+  const Merit &before, &after;
+};
+
+/// Whether a step only set impulses against each other. What is squeezed harder than there is room
+/// has rows that contradict each other: phi falls the larger they get, and velocities are what is
+/// left of sums that cancel. At a solution gain and square are the same, but for what slides.
+/// Joints are often redundant, and their steps look like that: for islands without joints.
+inline bool IsSqueezed(const StepEffect& step) {
+  return step.after.gain > 8 * step.after.square && step.after.gain > step.before.gain &&
+         step.error_after > 0.5 * step.error_before;
+}
+
 /// How an island moves along, turning aside.
 struct IslandMotion {
   double speed = 0;   ///< of its fastest body [m/s]

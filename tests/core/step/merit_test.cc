@@ -296,6 +296,39 @@ TEST(Guards, UndoAStepThatThrowsABody) {
   }
 }
 
+/// A tower of four boxes under a plate that comes down by so much [m/s].
+Scene TowerUnderAPress(double speed) {
+  Scene scene = test::Tower(4);
+  for (const auto& [x, y] : {std::pair(-0.5, -0.5), {-0.5, 0.5}, {0.5, -0.5}, {0.5, 0.5}}) {
+    const Eigen::Vector3d point(x, y, 4);
+    Row normal = test::PointRow(scene, 3, kWorld, point, -Eigen::Vector3d::UnitZ());
+    normal.target = speed;
+    test::AddContact(&scene, normal, point, 0.5);
+  }
+  return scene;
+}
+
+// Ground and plate cannot both have what they ask for: a step gives them impulses that grow until
+// what softens them says no.
+TEST(Guards, UndoAStepThatOnlySqueezes) {
+  for (const Path path : kPaths) {
+    Settings settings = test::AlwaysSteps(10);
+    settings.path = path;
+    const Scene pressed = TowerUnderAPress(1);
+    const Solution s = test::Solve(settings, pressed);
+    ASSERT_TRUE(s.report.ok());
+    EXPECT_TRUE(s.report.islands[0].guards.step);
+    EXPECT_EQ(s.report.steps_accepted, 0);
+    settings.k_sm = 0;
+    EXPECT_LE(LargestImpulse(s), 2 * LargestImpulse(test::Solve(settings, pressed)));
+
+    settings.k_sm = 1;
+    const Solution follows = test::Solve(settings, TowerUnderAPress(-0.05));
+    EXPECT_FALSE(follows.report.islands[0].guards.step) << "there is room";
+    EXPECT_EQ(follows.report.steps_accepted, 1);
+  }
+}
+
 // Friction of 20 times a pile's, over-relaxed and cut as its normals shrink, from a random start:
 // there even sweeps end worse than they began, on a few in a hundred.
 TEST(Guards, ScaleAResultThatIsWorseThanNone) {
