@@ -54,8 +54,8 @@ struct Correction {
 /// guarded it is left to sweeps for a while. Method::kPgsSm with LiftedFriction::kRelease only.
 struct Guards {
   bool start = false;   ///< After the first sweeps impulses were worse than none, and scaled down.
-  bool step = false;    ///< A subspace step was undone: it put in energy, threw or flung bodies, or
-                        ///< left impulses that floats cannot hold against each other.
+  bool step = false;    ///< A subspace step was undone: it put in energy, threw, flung or squeezed
+                        ///< bodies, or left impulses against each other that floats cannot hold.
   bool result = false;  ///< The impulses of the last sweep were worse than none, and scaled down.
 
   bool any() const { return start || step || result; }
