@@ -157,4 +157,10 @@ btTypedConstraint* World::AddJoint(std::unique_ptr<btTypedConstraint> joint,
   return joint_pointers_.back();
 }
 
+void MakeKinematic(btRigidBody* body) {
+  body->setCollisionFlags((body->getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT) |
+                          btCollisionObject::CF_KINEMATIC_OBJECT);
+  body->setActivationState(DISABLE_DEACTIVATION);
+}
+
 }  // namespace cairn::bench

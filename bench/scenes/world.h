@@ -110,6 +110,9 @@ class World {
   std::vector<std::function<void()>> releases_;
 };
 
+/// From now on a static body goes where its pose is set, from step to step, and pushes others.
+void MakeKinematic(btRigidBody* body);
+
 /// No rotation, at (x, y, z) [m].
 inline btTransform At(btScalar x, btScalar y, btScalar z) {
   return btTransform(btQuaternion::getIdentity(), btVector3(x, y, z));

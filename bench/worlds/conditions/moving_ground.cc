@@ -19,9 +19,7 @@ MovingGround::MovingGround(Random random, World* world) {
   for (int i = 0; i < objects.size(); ++i) {
     btRigidBody* const body = btRigidBody::upcast(objects[i]);
     if (body == nullptr || !body->isStaticObject()) continue;
-    body->setCollisionFlags((body->getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT) |
-                            btCollisionObject::CF_KINEMATIC_OBJECT);
-    body->setActivationState(DISABLE_DEACTIVATION);
+    MakeKinematic(body);
     const btTransform& pose = body->getWorldTransform();
     if (together) {
       movers_.push_back({body, pose, reach, kRoll, pace});

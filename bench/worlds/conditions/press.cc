@@ -51,7 +51,7 @@ void Press::Act(double time_step, World* world) {
     case Phase::kOpens:
       MoveTo(static_cast<btScalar>(closed_ -= speed_ * time_step));
       if (left_ >= 0) return;
-      for (btRigidBody*& plate : plates_) world->Remove(plate), plate = nullptr;
+      for (btRigidBody* plate : plates_) world->Remove(plate);
       phase_ = Phase::kOpen;
       left_ = random_.Within(0, kLongestPause);
       return;
@@ -75,14 +75,9 @@ void Press::Begin(World* world) {
   for (int i = 0; i < 2; ++i) {
     const btScalar side = i == 0 ? btScalar(-1) : btScalar(1);
     starts_[i] = middle + direction_ * side * (half[axis] + kRoom + kHalfThickness);
-    btRigidBody* const plate =
-        world->AddBox(sizes, {.mass = 0,
-                              .pose = At(starts_[i].x(), starts_[i].y(), starts_[i].z()),
-                              .surface = surface_});
-    plate->setCollisionFlags((plate->getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT) |
-                             btCollisionObject::CF_KINEMATIC_OBJECT);
-    plate->setActivationState(DISABLE_DEACTIVATION);
-    plates_[i] = plate;
+    const btTransform pose(btQuaternion::getIdentity(), starts_[i]);
+    plates_[i] = world->AddBox(sizes, {.pose = pose, .surface = surface_});
+    MakeKinematic(plates_[i]);
   }
   phase_ = Phase::kCloses;
   left_ = closing_;

@@ -57,7 +57,7 @@ inline bool IsTooMuch(double joint_speed) { return !(joint_speed <= 1e6); }
 /// that the impulses do: what is small beside them may have any ratio to an error that is smaller.
 bool IsTooViolent(const Merit& before, const Merit& after, double mass, double error);
 
-/// What a step did to an island: Residual::energy and phi before and after it.
+/// What a step and the sweeps after it did to an island: Residual::energy, and what phi is made of.
 struct StepEffect {
   double error_before, error_after;
   const Merit &before, &after;
