@@ -24,12 +24,17 @@ bool IsLeftAlone(const Body& body, const Eigen::Vector3d& linear, const Eigen::V
   return LookAtLocked(body, linear.squaredNorm(), angular.squaredNorm(), g).alone;
 }
 
-/// Rows without the bodies with locked axes that they leave alone.
+bool Moves(const Body& body) { return body.inv_mass > 0 || !View(body.inv_inertia).isZero(0); }
+
+/// Rows without the bodies that they do not move: such as have locked axes and are left alone, and
+/// those that nothing moves.
 std::vector<Row> RowsThatPush(const ContactProblem& problem) {
   std::vector<Row> rows(problem.rows.begin(), problem.rows.end());
   const auto look = [&problem](int* body, const auto& linear, const auto& angular) {
-    if (*body == kWorld || !HasLockedAxes(problem.bodies[*body])) return;
-    if (IsLeftAlone(problem.bodies[*body], View(linear), View(angular))) *body = kWorld;
+    if (*body == kWorld) return;
+    const Body& of = problem.bodies[*body];
+    const bool alone = HasLockedAxes(of) && IsLeftAlone(of, View(linear), View(angular));
+    if (alone || !Moves(of)) *body = kWorld;
   };
   for (Row& row : rows) {
     look(&row.body_a, row.linear_a, row.angular_a);

@@ -305,7 +305,7 @@ TEST(Audit, CountsMotionForcesAndCompliance) {
 TEST(Audit, LeavesOutWhatIsLeftAlone) {
   Body locked = Weighing(1);
   locked.linear_factor = Eigen::Vector3d(1, 0, 1);
-  const std::vector<Body> bodies = {locked, Weighing(1)};
+  const std::vector<Body> bodies = {locked, Weighing(1), Body()};
   const Eigen::Vector3d leaning(1e-3, 1, 0);
   const std::vector<Row> rows = {{.body_a = 0, .linear_a = leaning, .target = -5},
                                  {.body_a = 0,
@@ -315,6 +315,15 @@ TEST(Audit, LeavesOutWhatIsLeftAlone) {
                                   .target = 3}};
   const ContactProblem problem{.bodies = bodies, .rows = rows};
   EXPECT_NEAR(AuditEnergy(problem, std::vector<double>{100, 3}).merit, -4.5, 1e-12);
+
+  // nor is a floor, which moves but not by impulses
+  const std::vector<Row> on_floor = {{.body_a = 0,
+                                      .body_b = 2,
+                                      .linear_a = leaning,
+                                      .linear_b = Eigen::Vector3d(0, -1, 0),
+                                      .target = -5}};
+  const ContactProblem floor{.bodies = bodies, .rows = on_floor};
+  EXPECT_LE(AuditEnergy(floor, std::vector<double>{100}).merit, 0);
 }
 
 // Two islands, one of which gains what the other loses.

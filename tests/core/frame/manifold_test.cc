@@ -222,6 +222,24 @@ TEST(Manifold, EndsWhereItsRowsEnd) {
   }
 }
 
+// A point that hardly slides slides another way in floats than in doubles.
+TEST(Manifold, HasImpulsesAlongTheDirectionsThatAreMeasured) {
+  std::vector<Body> bodies(1);
+  bodies[0].inv_mass = 1;
+  bodies[0].velocity.linear = Eigen::Vector3d(1, 0, 0);
+  const std::vector<ContactPoint> points = {{.normal = {0, 1, 0}, .friction = 1}};
+  const std::vector<Manifold> manifolds = {{.body_a = 0, .body_b = kWorld, .points = 1}};
+  // along the axis z, and along that across the normal
+  std::vector<ContactImpulse> impulses = {
+      {.normal = 1, .tangential = {0.3f, 0.1f}, .heading = 2, .direction = {0, 0, 1}}};
+  const ContactProblem problem{.bodies = bodies, .manifolds = manifolds, .points = points};
+  const std::vector<double> x = AllImpulses(problem, {.points = impulses});
+  ASSERT_EQ(x.size(), 3u);
+  EXPECT_EQ(x[0], 1);
+  EXPECT_NEAR(x[1], -0.1, 1e-7);
+  EXPECT_NEAR(x[2], 0.3, 1e-7);
+}
+
 TEST(Manifold, IsSolvedInDoubleLikeItsRows) {
   const Settings settings = test::PlainSweeps(30);
   ManifoldScene scene = AnyManifolds(20, 40, 3);
