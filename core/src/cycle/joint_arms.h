@@ -44,18 +44,29 @@ inline bool AreWorldAxes(const Joint& joint, const JointRow* rows, int first) {
   return true;
 }
 
-/// Three rows that follow each other pull at a point: they pull and push alike, and their linear
-/// parts are axes. @param rows  of the joint; @param first  the first of the three
-inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
-  if ((joint.angular >> first & 7) != 0) return false;
-  for (int row = first; row < first + 3; ++row) {
+/// So many rows that follow each other have linear parts, and pull and push alike.
+/// @param rows  of the joint; @param first  the first of them
+inline bool PullAlike(const Joint& joint, const JointRow* rows, int first, int count) {
+  if ((joint.angular >> first & ((1u << count) - 1)) != 0) return false;
+  for (int row = first; row < first + count; ++row) {
     if (!IsTwoSided(joint, rows, row)) return false;
   }
-  if (AreWorldAxes(joint, rows, first)) return true;
+  return true;
+}
+
+/// The linear parts of three rows are unit vectors at right angles to each other.
+inline bool ThreeAreAxes(const Joint& joint, const JointRow* rows, int first) {
   const bool of_a = joint.body_a != kWorld || joint.opposite;
   return AreAxes([&](int i) -> const float(&)[3] {
     return of_a ? rows[first + i].linear_a : rows[first + i].linear_b;
   });
+}
+
+/// Three rows that follow each other pull at a point: they pull and push alike, and their linear
+/// parts are axes.
+inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
+  return PullAlike(joint, rows, first, 3) &&
+         (AreWorldAxes(joint, rows, first) || ThreeAreAxes(joint, rows, first));
 }
 
 /// The same for two rows, where bodies cannot move across them: a row that moves nobody is left
@@ -63,10 +74,7 @@ inline bool PullAtPoint(const Joint& joint, const JointRow* rows, int first) {
 inline bool PullInPlane(const Joint& joint, const JointRow* rows, int first,
                         std::span<const Body> bodies) {
   constexpr double kLocked = 1e-3;  // share of an axis that is left
-  if ((joint.angular >> first & 3) != 0) return false;
-  for (int row = first; row < first + 2; ++row) {
-    if (!IsTwoSided(joint, rows, row)) return false;
-  }
+  if (!PullAlike(joint, rows, first, 2)) return false;
   const bool of_a = joint.body_a != kWorld || joint.opposite;
   const auto vector = [&](int i) {
     const float(&l)[3] = of_a ? rows[first + i].linear_a : rows[first + i].linear_b;

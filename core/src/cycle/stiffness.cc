@@ -11,6 +11,7 @@
 #include "cycle/joint_arms.h"
 #include "problem/body_name.h"
 #include "simd/principal_axes.h"
+#include "simd/raised_inertia.h"
 
 namespace cairn {
 namespace {
@@ -34,6 +35,12 @@ constexpr double kSlowed = 8;
 /// Moments of inertia that are this close have no axes of their own.
 constexpr double kSameMoment = 1e-3;
 
+Eigen::Matrix3d Whole(const GeometricStiffness::Symmetric& half) {
+  Eigen::Matrix3d whole;
+  whole << half.xx, half.yx, half.zx, half.yx, half.yy, half.zy, half.zx, half.zy, half.zz;
+  return whole;
+}
+
 /// No stiffness about an axis is larger.
 double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
 
@@ -42,56 +49,32 @@ float Sum(const float (&vector)[3]) {
   return std::abs(vector[0]) + std::abs(vector[1]) + std::abs(vector[2]);
 }
 
-/// Stiffness about each principal axis, at least what K turns by (Gershgorin). K is symmetric.
-Eigen::Vector3d AboutAxes(const Eigen::Matrix3d& stiffness, const Eigen::Matrix3d& axes) {
-  const Eigen::Vector3d of_x = stiffness * axes.col(0), of_y = stiffness * axes.col(1),
-                        of_z = stiffness * axes.col(2);
-  const double xy = std::abs(axes.col(0).dot(of_y)), xz = std::abs(axes.col(0).dot(of_z)),
-               yz = std::abs(axes.col(1).dot(of_z));
-  return Eigen::Vector3d(axes.col(0).dot(of_x) + xy + xz, axes.col(1).dot(of_y) + xy + yz,
-                         axes.col(2).dot(of_z) + xz + yz)
-      .cwiseMax(0);
-}
-
-/// Makes symmetric matrices with those axes.
-class MatrixMaker {
- public:
-  explicit MatrixMaker(const Eigen::Matrix3d& axes) {
-    for (int column = 0, k = 0; column < 3; ++column) {
-      for (int row = column; row < 3; ++row) {
-        products_[k++] = axes.row(row).cwiseProduct(axes.row(column)).transpose();
-      }
-    }
-  }
-
-  Matrix3 Make(const Eigen::Vector3d& eigenvalues) const {
-    Matrix3 matrix;
-    for (int column = 0, k = 0; column < 3; ++column) {
-      for (int row = column; row < 3; ++row) {
-        matrix(row, column) = matrix(column, row) = products_[k++].dot(eigenvalues);
-      }
-    }
-    return matrix;
-  }
-
- private:
-  Eigen::Vector3d products_[6];
+struct Kernels {
+  simd::PrincipalAxesKernel find_axes;
+  simd::RaiseKernel raise;
 };
 
-/// Axes of equal moments turn with rounding: they share what any of them needs.
-void ShareAmongEqual(const Eigen::Vector3d& inv_moments, Eigen::Vector3d* k) {
-  for (int i = 0; i < 2; ++i) {
-    if (inv_moments[i + 1] - inv_moments[i] > kSameMoment * inv_moments[i + 1]) continue;
-    (*k)[i] = (*k)[i + 1] = std::max((*k)[i], (*k)[i + 1]);
-  }
-  if (inv_moments[1] - inv_moments[0] <= kSameMoment * inv_moments[1]) (*k)[0] = (*k)[1];
+/// Chosen once for all: bits do not depend on it.
+const Kernels& ChosenKernels() {
+  static const Kernels kKernels = {simd::PrincipalAxesKernelFor(simd::ChosenTarget()),
+                                   simd::RaiseKernelFor(simd::ChosenTarget())};
+  return kKernels;
 }
 
-/// Chosen once for all: bits do not depend on it.
-simd::PrincipalAxesKernel AxesKernel() {
-  static const simd::PrincipalAxesKernel kKernel =
-      simd::PrincipalAxesKernelFor(simd::ChosenTarget());
-  return kKernel;
+/// The lower half of a matrix, column by column, to and from a lane.
+void PutHalf(const Matrix3& matrix, size_t lane, double (*to)[simd::kLanes]) {
+  for (int column = 0, k = 0; column < 3; ++column) {
+    for (int row = column; row < 3; ++row) to[k++][lane] = matrix(row, column);
+  }
+}
+Matrix3 WholeOf(const double (*half)[simd::kLanes], size_t lane) {
+  Matrix3 whole;
+  for (int column = 0, k = 0; column < 3; ++column) {
+    for (int row = column; row < 3; ++row) {
+      whole(row, column) = whole(column, row) = half[k++][lane];
+    }
+  }
+  return whole;
 }
 
 }  // namespace
@@ -104,21 +87,24 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
   raised_.reserve(memories_.size());
   FindStrained(time_step, bodies, jointed);
   simd::PrincipalAxes axes;
+  simd::RaisedInertia lanes;
+  const simd::RaiseRules rules = {time_step, kThreshold, kHold, kSameMoment};
   for (size_t from = 0; from < strained_.size(); from += simd::kLanes) {
     const size_t count = std::min<size_t>(simd::kLanes, strained_.size() - from);
     const std::span<const Strained> some(&strained_[from], count);
     for (size_t l = 0; l < count; ++l) {
-      const auto inv_inertia = View(bodies[some[l].body].inv_inertia);
-      for (int column = 0, k = 0; column < 3; ++column) {
-        for (int row = column; row < 3; ++row) axes.matrix[k++][l] = inv_inertia(row, column);
+      const Memory& memory = *some[l].memory;
+      PutHalf(bodies[some[l].body].inv_inertia, l, axes.matrix);
+      PutHalf(memory.stiffness, l, lanes.stiffness);
+      for (int k = 0; k < 3; ++k) {
+        lanes.held[k][l] = memory.held[k];
+        lanes.kept[k][l] = memory.kept[k];
       }
     }
-    AxesKernel()(&axes);
+    ChosenKernels().find_axes(&axes);
+    ChosenKernels().raise(rules, axes, &lanes);
     for (size_t l = 0; l < count; ++l) {
-      const Vector3 moments = {axes.moment[0][l], axes.moment[1][l], axes.moment[2][l]};
-      Eigen::Matrix3d of_body;
-      for (int k = 0; k < 9; ++k) of_body(k % 3, k / 3) = axes.axis[k][l];
-      Raise(time_step, some[l], moments, of_body, bodies);
+      TakeRaised(lanes, l, some[l], bodies);
     }
   }
   return raised_;
@@ -147,27 +133,22 @@ void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies,
   }
 }
 
-void GeometricStiffness::Raise(double time_step, const Strained& strained, const Vector3& moments,
-                               const Matrix3& principal, std::span<Body> bodies) {
-  const auto axes = View(principal);
-  if (!View(moments).allFinite() || !axes.allFinite()) return;
-  const Eigen::Vector3d inv_moments = View(moments).cwiseMax(0);
+void GeometricStiffness::TakeRaised(const simd::RaisedInertia& lanes, size_t lane,
+                                    const Strained& strained, std::span<Body> bodies) {
+  const Matrix3 inv_inertia = WholeOf(lanes.inv_inertia, lane);
+  // nor is what came of an inertia that was not
+  if (!std::isfinite(View(inv_inertia).sum())) return;
   Body& body = bodies[strained.body];
   Memory& memory = *strained.memory;
-  Eigen::Vector3d k = AboutAxes(memory.stiffness, axes).cwiseMax(kHold * View(memory.held));
-  ShareAmongEqual(inv_moments, &k);
-  memory.held = k;
-  memory.held_ratio = k.cwiseProduct(inv_moments).maxCoeff();
-
-  const Eigen::Array3d strain = time_step * time_step * k.cwiseProduct(inv_moments).array();
-  body.strain = strain.maxCoeff();
-  const Eigen::Vector3d kept = (1 + (strain - kThreshold).max(0)).inverse().matrix();
-  const Eigen::Vector3d carried = kept.cwiseQuotient(View(memory.kept)).cwiseMin(1);
-  memory.kept = kept;
+  for (int k = 0; k < 3; ++k) {
+    memory.held[k] = lanes.held[k][lane];
+    memory.kept[k] = lanes.kept[k][lane];
+  }
+  memory.held_ratio = lanes.held_ratio[lane];
+  body.strain = lanes.strain[lane];
   if (body.strain <= kThreshold) return;
-  const MatrixMaker of_axes(axes);
-  body.inv_inertia = of_axes.Make(inv_moments.cwiseProduct(kept));
-  raised_.push_back({strained.body, of_axes.Make(kept), of_axes.Make(carried)});
+  body.inv_inertia = inv_inertia;
+  raised_.push_back({strained.body, WholeOf(lanes.response, lane), WholeOf(lanes.carried, lane)});
 }
 
 Vector3 GeometricStiffness::Raised::Damp(double time_step, const Vector3& spin) const {
@@ -218,39 +199,43 @@ void GeometricStiffness::NotePlaces(std::span<const Body> bodies) {
   }
 }
 
-void GeometricStiffness::Add(int body, const Vector3& arm, const Vector3& impulse,
-                             double time_step) {
-  // what cannot move belongs to no island
-  if (body == kWorld || island_of_[body] < 0 || anchored_[island_of_[body]] == 0) return;
+void GeometricStiffness::Add(int body, const Vector3& r, const Vector3& f) {
   if (place_[body] < 0) {
     place_[body] = static_cast<int>(pulled_.size());
     pulled_.push_back(body);
     sums_.emplace_back();
   }
-  const Eigen::Vector3d at = arm, force = View(impulse) / time_step;
   // (f . r) 1 - (r f' + f r') / 2, which is symmetric
-  auto sum = View(sums_[place_[body]]);
-  const double along = force.dot(at);
-  for (int column = 0; column < 3; ++column) {
-    for (int row = column; row < 3; ++row) {
-      const double across = 0.5 * (at[row] * force[column] + force[row] * at[column]);
-      sum(row, column) += (row == column ? along : 0) - across;
-      sum(column, row) = sum(row, column);
-    }
-  }
+  Symmetric& sum = sums_[place_[body]];
+  const double xx = r[0] * f[0], yy = r[1] * f[1], zz = r[2] * f[2];
+  const double along = xx + yy + zz;
+  sum.xx += along - xx;
+  sum.yy += along - yy;
+  sum.zz += along - zz;
+  sum.yx -= 0.5 * (r[1] * f[0] + f[1] * r[0]);
+  sum.zx -= 0.5 * (r[2] * f[0] + f[2] * r[0]);
+  sum.zy -= 0.5 * (r[2] * f[1] + f[2] * r[1]);
 }
 
 void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
-  anchored_.assign(report.islands.size(), 0);
+  anchored_islands_.assign(report.islands.size(), 0);
   const auto moves = [&](int body) { return body != kWorld && problem.bodies[body].inv_mass > 0; };
   const auto look = [&](const auto& between) {
     if (moves(between.body_a) == moves(between.body_b)) return;
     const int body = moves(between.body_a) ? between.body_a : between.body_b;
-    if (report.island_of[body] >= 0) anchored_[report.island_of[body]] = 1;
+    if (report.island_of[body] >= 0) anchored_islands_[report.island_of[body]] = 1;
   };
   for (const Joint& joint : problem.joints) look(joint);
   for (const Row& row : problem.rows) look(row);
   for (const Manifold& manifold : problem.manifolds) look(manifold);
+
+  anchored_.assign(problem.bodies.size(), 0);
+  for (size_t i = 0; i < problem.bodies.size(); ++i) {
+    const int island = report.island_of[i];
+    // what cannot move belongs to no island
+    anchored_[i] = island >= 0 ? anchored_islands_[island] : 0;
+    if (anchored_[i] == 0) pull_[i] = 0;
+  }
 }
 
 void GeometricStiffness::FindJointed(const ContactProblem& problem) {
@@ -316,15 +301,17 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
         count = 1;
         continue;
       }
-      const bool at_point = row + 3 <= joint.rows && PullAtPoint(joint, of_joint, row);
-      const bool in_plane = !at_point && PullInPlane(joint, of_joint, row, problem.bodies);
-      count = at_point ? 3 : in_plane ? 2 : 1;
-      if (count == 1) continue;
       const float* const impulse = &impulses.joint_rows[joint.first_row + row];
+      const bool at_point = row + 3 <= joint.rows && PullAlike(joint, of_joint, row, 3);
       if (at_point && AreWorldAxes(joint, of_joint, row)) {
+        count = 3;
         AddAlongWorldAxes(time_step, joint, of_joint + row, impulse);
         continue;
       }
+      const bool along_axes = at_point && ThreeAreAxes(joint, of_joint, row);
+      const bool in_plane = !along_axes && PullInPlane(joint, of_joint, row, problem.bodies);
+      count = along_axes ? 3 : in_plane ? 2 : 1;
+      if (count == 1) continue;
       const RowTriple rows = ReadTriple(joint, of_joint, row, count);
       Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
       for (int k = 0; k < count; ++k) lambda[k] = impulse[k];
@@ -332,7 +319,7 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
                            const Eigen::Matrix3d& angular) {
         if (!IsPulled(body)) return;
         const Eigen::Vector3d arm = in_plane ? ArmInPlane(linear, angular) : ArmOf(linear, angular);
-        Add(body, arm, linear * lambda, time_step);
+        Add(body, arm, linear * lambda / time_step);
       };
       add(joint.body_a, rows.linear_a, rows.angular_a);
       add(joint.body_b, rows.linear_b, rows.angular_b);
@@ -342,16 +329,15 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
 
 void GeometricStiffness::AddAlongWorldAxes(double time_step, const Joint& joint,
                                            const JointRow* rows, const float* impulse) {
-  const Eigen::Vector3d lambda(impulse[0], impulse[1], impulse[2]);
+  const Eigen::Vector3d force = Eigen::Vector3d(impulse[0], impulse[1], impulse[2]) / time_step;
   if (IsPulled(joint.body_a)) {
-    const Eigen::Vector3d arm =
-        ArmOfWorldAxes(rows[0].angular_a, rows[1].angular_a, rows[2].angular_a);
-    Add(joint.body_a, arm, lambda, time_step);
+    Add(joint.body_a, ArmOfWorldAxes(rows[0].angular_a, rows[1].angular_a, rows[2].angular_a),
+        force);
   }
   if (IsPulled(joint.body_b)) {
-    const Eigen::Vector3d arm =
-        ArmOfWorldAxes(rows[0].angular_b, rows[1].angular_b, rows[2].angular_b);
-    Add(joint.body_b, -arm, -lambda, time_step);
+    // both the arm and the force are the opposite
+    Add(joint.body_b, ArmOfWorldAxes(rows[0].angular_b, rows[1].angular_b, rows[2].angular_b),
+        force);
   }
 }
 
@@ -378,8 +364,11 @@ void GeometricStiffness::AddRows(double time_step, const ContactProblem& problem
       continue;
     }
     const Eigen::Vector3d lambda(impulses.rows[i], impulses.rows[i + 1], impulses.rows[i + 2]);
-    Add(rows[0].body_a, ArmOf(linear_a, angular_a), linear_a * lambda, time_step);
-    Add(rows[0].body_b, ArmOf(linear_b, angular_b), linear_b * lambda, time_step);
+    const auto add = [&](int body, const Eigen::Matrix3d& linear, const Eigen::Matrix3d& angular) {
+      if (IsAnchored(body)) Add(body, ArmOf(linear, angular), linear * lambda / time_step);
+    };
+    add(rows[0].body_a, linear_a, angular_a);
+    add(rows[0].body_b, linear_b, angular_b);
     i += 3;
   }
 }
@@ -405,7 +394,6 @@ void GeometricStiffness::Learn(double time_step, const ContactProblem& problem,
     const int island = report.island_of[i];
     stepped_[i] = island >= 0 && report.islands[island].steps_accepted > 0 ? 1 : 0;
   }
-  island_of_ = report.island_of;
   FindAnchored(problem, report);
   memories_.reserve(bodies);
   by_key_.reserve(bodies);
@@ -437,7 +425,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     const double inv_inertia = View(body.inv_inertia).trace();
     Memory* memory = known_[pulled_[p]];
     const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
-    if (!known && step2 * Most(sums_[p]) * inv_inertia < kRemember) continue;
+    if (!known && step2 * Most(Whole(sums_[p])) * inv_inertia < kRemember) continue;
     if (!known) {
       if (memory == nullptr) memory = &fresh_.emplace_back();
       // one that is known may have been lowered
@@ -446,7 +434,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
                  .inv_mass = body.inv_mass,
                  .inv_inertia = inv_inertia};
     }
-    View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * View(sums_[p]);
+    View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * Whole(sums_[p]);
     memory->seen = true;
   }
   std::erase_if(memories_, [step2](const Memory& memory) {

@@ -2,12 +2,17 @@
 #pragma once
 #include "cairn/detail/cpp20.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "cairn/contact_problem.h"
 #include "cairn/detail/memory.h"
 #include "cairn/report.h"
+
+namespace cairn::simd {
+struct RaisedInertia;
+}
 
 namespace cairn {
 
@@ -50,6 +55,11 @@ class GeometricStiffness {
     /// What its spin changes by over this step, before any impulse [rad/s]. Raised inertia would
     /// lend weight to spin that it did not have when it came about, and throw what stops it.
     Vector3 Damp(double time_step, const Vector3& spin) const;
+  };
+
+  /// A matrix that is its own transpose.
+  struct Symmetric {
+    double xx = 0, yx = 0, zx = 0, yy = 0, zy = 0, zz = 0;
   };
 
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
@@ -99,13 +109,15 @@ class GeometricStiffness {
 
   /// Writes strained_, and Body::strain of all.
   void FindStrained(double time_step, std::span<Body> bodies, std::span<const char> jointed);
-  void Raise(double time_step, const Strained& strained, const Vector3& inv_moments,
-             const Matrix3& axes, std::span<Body> bodies);
+  void TakeRaised(const simd::RaisedInertia& lanes, std::size_t lane, const Strained& strained,
+                  std::span<Body> bodies);
   void FindAnchored(const ContactProblem& problem, const Report& report);
-  void Add(int body, const Vector3& arm, const Vector3& impulse, double time_step);
+  /// @param arm  from its centre of mass; @param force  [N]
+  void Add(int body, const Vector3& arm, const Vector3& force);
   void FindJointed(const ContactProblem& problem);
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
   bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
+  bool IsAnchored(int body) const { return body != kWorld && anchored_[body] != 0; }
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
   /// The same for three rows of a joint; see AreWorldAxes().
   void AddAlongWorldAxes(double time_step, const Joint& joint, const JointRow* rows,
@@ -126,14 +138,14 @@ class GeometricStiffness {
   Array<Memory> fresh_;          ///< those that are new
   Array<Strained> strained_;
   Array<Raised> raised_;
-  Array<char> stepped_;             ///< by body: a subspace step was kept on its island
-  Array<char> anchored_;            ///< by island: something of it touches what does not move
-  std::span<const int> island_of_;  ///< of the report that is learnt from
-  Array<char> jointed_;             ///< by body: there is a joint of it
-  Array<double> pull_;              ///< by body: whether joints may pull too hard
-  Array<int> pulled_;               ///< bodies with an entry in sums_
-  Array<int> place_;                ///< by body: in pulled_, -1 for none
-  Array<Matrix3> sums_;             ///< K of pulled_
+  Array<char> stepped_;           ///< by body: a subspace step was kept on its island
+  Array<char> anchored_islands_;  ///< by island: something of it touches what does not move
+  Array<char> anchored_;          ///< by body: its island is
+  Array<char> jointed_;           ///< by body: there is a joint of it
+  Array<double> pull_;            ///< by body: whether joints may pull too hard
+  Array<int> pulled_;             ///< bodies with an entry in sums_
+  Array<int> place_;              ///< by body: in pulled_, -1 for none
+  Array<Symmetric> sums_;         ///< K of pulled_
 };
 
 }  // namespace cairn
