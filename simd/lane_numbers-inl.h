@@ -34,10 +34,21 @@ HWY_INLINE void MoveLanes(const Momentum* momenta, const std::int32_t* of_lane, 
                           int count, const Moving<Line>& numbers) {
   const hn::CappedTag<float, most> d;
   const hn::RebindToSigned<decltype(d)> d_index;
-  for (int l = 0; l < lanes; l += static_cast<int>(hn::MaxLanes(d))) {
-    const auto index = hn::ShiftLeft<1>(hn::LoadU(d_index, of_lane + l));
-    const auto beta = hn::GatherIndex(d, &momenta->beta, index);
-    const auto keep = hn::GatherIndex(d, &momenta->keep, index);
+  constexpr int kWidth = static_cast<int>(hn::MaxLanes(d));
+  for (int l = 0; l < lanes; l += kWidth) {
+    auto beta = hn::Set(d, momenta[of_lane[l]].beta), keep = hn::Set(d, momenta[of_lane[l]].keep);
+    // mostly all are of one island, and where they are not one by one is faster than gathering
+    const auto used = hn::FirstN(d_index, static_cast<std::size_t>(lanes - l));
+    const auto first = hn::Set(d_index, of_lane[l]);
+    if (!hn::AllFalse(d_index, hn::And(used, hn::Ne(hn::LoadU(d_index, of_lane + l), first)))) {
+      HWY_ALIGN float betas[kWidth] = {}, keeps[kWidth] = {};
+      for (int k = 0; k < kWidth && l + k < lanes; ++k) {
+        betas[k] = momenta[of_lane[l + k]].beta;
+        keeps[k] = momenta[of_lane[l + k]].keep;
+      }
+      beta = hn::Load(d, betas);
+      keep = hn::Load(d, keeps);
+    }
     for (int i = 0; i < count; ++i) {
       Move<most>(d, beta, keep, numbers.now[i].lane + l, numbers.last[i].lane + l,
                  numbers.direction[i].lane + l);
