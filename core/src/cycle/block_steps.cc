@@ -378,25 +378,36 @@ int BlockSteps::SweepsOfEffort(int island, int iterations) const {
   return static_cast<int>(std::clamp<double>(sweeps, iterations, most));
 }
 
-double BlockSteps::PriceAlone(int group, int island, int factorisations) {
-  return HasJoints(island) ? PriceAloneOf<double>(group, island, factorisations)
-                           : PriceAloneOf<float>(group, island, factorisations);
+double BlockSteps::PriceAlone(int group, int island, int factorisations, double most) {
+  return HasJoints(island) ? PriceAloneOf<double>(group, island, factorisations, most)
+                           : PriceAloneOf<float>(group, island, factorisations, most);
 }
 
 template <class T>
-double BlockSteps::PriceAloneOf(int group, int island, int factorisations) {
+double BlockSteps::PriceAloneOf(int group, int island, int factorisations, double most) {
   const PlannedIsland& of = frame_->plan().islands()[island];
   BlockSystem<T>& system = SystemOf<T>(group);
+  IslandMemory* const memory = MemoryOf(island);
+  const double lines = step_lines_[island], bodies = of.bodies;
+  const auto price_of = [&](const FactorSize& own) {
+    return PriceOf<T>({lines, own.flops, own.nonzeros, bodies}, factorisations);
+  };
+  if (!system.IsPreparedFor(frame_->plan_number(), group) &&
+      memory->factor_size().bodies == bodies) {
+    // no graph of these bodies that is not known costs less
+    const double least = price_of(memory->factor_size());
+    if (least > most) return least;
+  }
   if (!system.Recognise(frame_->plan(), frame_->plan_number(), group)) {
     // mostly there are about as many pairs as bodies
-    const double analysis = 2 * kAnalyse * of.bodies / system.steps_of_analysis();
-    const Unknown graph{1.0 * step_lines_[island], 1.0 * of.rows, 1.0 * of.bodies};
-    return GuessOf<T>(graph, MemoryOf(island)->factor_size(), factorisations) + analysis;
+    const double analysis = 2 * kAnalyse * bodies / system.steps_of_analysis();
+    const Unknown graph{lines, 1.0 * of.rows, bodies};
+    return GuessOf<T>(graph, memory->factor_size(), factorisations) + analysis;
   }
-  const double bodies = of.bodies, share = bodies / system.nodes();
+  const double share = bodies / system.nodes();
   const FactorSize own{share * system.flops(), share * system.nonzeros(), bodies};
-  MemoryOf(island)->Remember(own);
-  return PriceOf<T>({1.0 * step_lines_[island], own.flops, own.nonzeros, bodies}, factorisations);
+  memory->Remember(own);
+  return price_of(own);
 }
 
 void BlockSteps::Take(int group, std::span<const int> islands) {

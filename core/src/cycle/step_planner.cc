@@ -157,8 +157,8 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const auto fits = [&](int factorisations) {
     const bool more =
         strained || (odds.stepped_of_late() && (factorisations == 1 || steps_->HasJoints(i)));
-    return steps_->PriceAlone(g, i, factorisations + condensing) <=
-           (more ? kMoreOnceStepped : 1) * most_price;
+    const double most = (more ? kMoreOnceStepped : 1) * most_price;
+    return steps_->PriceAlone(g, i, factorisations + condensing, most) <= most;
   };
   int most = frame_->settings.k_sm;
   while (most > 0 && !fits(most)) most /= 2;

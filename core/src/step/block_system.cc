@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace cairn {
 namespace {
@@ -146,6 +147,10 @@ void BlockSystem<T>::FindPairs(const Plan& plan, const Group& group) {
   std::set_union(pairs_.begin(), pairs_.end(), known_pairs_.begin(), known_pairs_.end(),
                  std::back_inserter(all_pairs_));
   if (Serves(static_cast<double>(all_pairs_.size()), now)) pairs_.swap(all_pairs_);
+
+  first_pair_.assign(static_cast<size_t>(nodes()) + 1, 0);
+  for (const NodePair& pair : pairs_) ++first_pair_[pair.first + 1];
+  std::partial_sum(first_pair_.begin(), first_pair_.end(), first_pair_.begin());
 }
 
 template <class T>
@@ -156,8 +161,10 @@ bool BlockSystem<T>::FindLanes(const Plan& plan, const Group& group) {
     const bool joins = block.form != simd::PairForm::kSingle;
     for (int lane = 0; lane < block.lanes && joins; ++lane) {
       const NodePair pair = PairOf(plan, block, lane);
-      const auto known = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
-      if (known == pairs_.end() || *known != pair) return false;
+      const auto begin = pairs_.begin() + first_pair_[pair.first],
+                 end = pairs_.begin() + first_pair_[pair.first + 1];
+      const auto known = std::lower_bound(begin, end, pair);
+      if (known == end || *known != pair) return false;
       pair_of_lane_[at + static_cast<size_t>(lane)] = static_cast<int>(known - pairs_.begin());
     }
     at += kLanes;

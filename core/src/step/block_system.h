@@ -135,7 +135,8 @@ class BlockSystem : public detail::Placed {
   int first_slot_ = 0;
   Array<int> bodies_, bodies_now_;  ///< ascending problem indices
   Array<int> node_of_slot_;
-  Array<NodePair> pairs_;  ///< of the analysed graph
+  Array<NodePair> pairs_;  ///< of the analysed graph, ascending
+  Array<int> first_pair_;  ///< by node: its first pair, where it is the first of them; and the end
   Array<NodePair> known_pairs_, all_pairs_;
   Array<int> pair_of_lane_;  ///< of the group's blocks; -1 where only one body moves
   int joined_lanes_ = 0;     ///< where two do

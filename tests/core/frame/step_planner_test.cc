@@ -20,13 +20,19 @@ class BetweenRounds {
       : BetweenRounds(settings, test::Together({test::Wall(1, 12), test::Wall(1, 1)})) {
     EXPECT_EQ(islands.count(), 2);
   }
-  /// With what is remembered of the islands of others, if that is given.
-  BetweenRounds(const Settings& settings, const Scene& scene, IslandMemories* memories = nullptr)
+  /// With what is remembered of the islands of others, and after a frame of another scene, if those
+  /// are given.
+  BetweenRounds(const Settings& settings, const Scene& scene, IslandMemories* memories = nullptr,
+                const Scene* before = nullptr)
       : settings_(settings),
         scene_(scene),
         problem_(scene_.problem()),
         rows_(scene_.rows.size(), 0.0),
         memories_(memories != nullptr ? memories : &own_memories_) {
+    if (before != nullptr) {
+      std::vector<double> rows(before->rows.size());
+      EXPECT_EQ(blocks_.Begin(before->problem(), 1, {.rows = rows}, &crew_), PackResult::kDone);
+    }
     EXPECT_EQ(blocks_.Begin(problem_, 1, {.rows = rows_}, &crew_), PackResult::kDone);
     islands.Begin(blocks_.plan(), NoStep::kEnded);
     steps.Begin(frame_);
@@ -75,7 +81,7 @@ TEST(BlockSteps, GuessThePriceOfAnIslandByTheFactorOfASmallerOne) {
   const auto price = [&](int boxes, bool guess) {
     BetweenRounds round(settings, test::Wall(1, boxes), &memories);
     if (!guess) round.steps.Analyse(0, kIsland);
-    const double result = round.steps.PriceAlone(0, 0, 1);
+    const double result = round.steps.PriceAlone(0, 0, 1, kInfinity);
     memories.EndFrame();
     return result;
   };
@@ -84,6 +90,25 @@ TEST(BlockSteps, GuessThePriceOfAnIslandByTheFactorOfASmallerOne) {
   EXPECT_GT(15 * small, 2.5 * truth);
   EXPECT_LT(guess, 1.5 * truth);
   EXPECT_GT(guess, truth / 1.5);
+}
+
+// To look at a graph of thousands of bodies takes longer than many a sweep.
+TEST(BlockSteps, DoNotLookAtAGraphThatIsKnownToBeTooDear) {
+  constexpr int kIsland[] = {0};
+  IslandMemories memories;
+  double price = 0;
+  {
+    BetweenRounds round(WithPolicy(StepPolicy::kWeighed), test::Wall(1, 30), &memories);
+    round.steps.Analyse(0, kIsland);
+    price = round.steps.PriceAlone(0, 0, 1, 0);
+    memories.EndFrame();
+  }
+  const Scene other = test::Wall(1, 2);
+  BetweenRounds round(WithPolicy(StepPolicy::kWeighed), test::Wall(1, 30), &memories, &other);
+  EXPECT_EQ(round.steps.PriceAlone(0, 0, 1, 0.9 * price), price);
+  EXPECT_GT(round.steps.Guess(0, kIsland), 0) << "the graph is not looked at";
+  EXPECT_EQ(round.steps.PriceAlone(0, 0, 1, price), price);
+  EXPECT_EQ(round.steps.Guess(0, kIsland), 0) << "it is known";
 }
 
 TEST(StepPlanner, AlwaysPlansStepsOnAllIslands) {
