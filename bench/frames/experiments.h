@@ -18,14 +18,20 @@ struct WindowOptions {
   int frame = 60;   ///< The first that is looked at.
   int frames = 60;  ///< So many.
 };
+/// What Cairn does in a substep of Bullet's ten iterations.
+enum class Work {
+  kPlainSweeps,  ///< Ten, and no subspace step.
+  kDefault,      ///< What Settings{} ask for.
+};
 struct ThreadOptions {
   WindowOptions window;
+  Work work = Work::kPlainSweeps;
   std::vector<int> threads = {1, 2};
   int gaps = 0;        ///< PrintScaling() alone: so many stretches between stages.
   bool parts = false;  ///< PrintThreads() alone: also what threads are busy with.
 };
-/// Wall time of substeps of ten plain sweeps on so many threads each, in worlds that Cairn drives:
-/// reading, solving, writing back, and the whole step of the world.
+/// Wall time of substeps on so many threads each, in worlds that Cairn drives: reading, solving,
+/// writing back, and the whole step of the world.
 void PrintThreads(const ThreadOptions& options, const std::string& command);
 
 /// What substeps would take on more threads than there are cores: from spans of one thread that
@@ -36,10 +42,10 @@ void PrintScaling(const ThreadOptions& options, const std::string& command);
 /// @throws std::runtime_error in a Bullet that does not lock
 void PrintMtWorlds(const ThreadOptions& options, const std::string& command);
 
-/// Whole steps of two worlds, one with Bullet's stock solver and one with Cairn in its place (ten
-/// iterations each, no subspace step, one thread), stepped in turn: what they take, and what of it
-/// is spent outside of the solver, which no solver can make faster.
-void PrintSteps(const WindowOptions& options, const std::string& command);
+/// Whole steps of two worlds, one with Bullet's stock solver and one with Cairn in its place, ten
+/// iterations each, one thread, stepped in turn: what they take, and what of it is spent outside of
+/// the solver, which no solver can make faster.
+void PrintSteps(const WindowOptions& options, Work work, const std::string& command);
 
 /// Bullet's stock solver against Cairn in its place, on the very same substeps of worlds that
 /// Bullet drives: ten sweeps, no subspace step, one thread, from prepareSolve() to the end of
@@ -84,5 +90,9 @@ std::string NameOf(const SceneChoice& scene);
 
 /// Plain sweeps, as many as asked: nothing else ends a Solve().
 Settings Sweeps(int count, int threads);
+/// What Bullet's ten iterations are for that.
+Settings SettingsFor(Work work, int threads);
+/// "ten plain sweeps"
+std::string Describe(Work work);
 
 }  // namespace cairn::frames

@@ -46,6 +46,12 @@ void AddThreads(CLI::App* app, std::vector<int>* threads) {
       ->capture_default_str();
 }
 
+void AddWork(CLI::App* app, Work* work) {
+  app->add_flag(
+      "--default", [work](std::int64_t) { *work = Work::kDefault; },
+      "Default settings instead of ten plain sweeps: accelerated ones, and steps where they pay");
+}
+
 void AddDeadlines(CLI::App* app, DeadlineOptions* options) {
   app->add_option("--worlds", options->worlds, "Random worlds")
       ->check(CLI::Range(0, 100000))
@@ -100,6 +106,7 @@ int Main(int count, char** arguments) {
   AddScenes(threads_app, &thread_scenes);
   AddFrames(threads_app, &threads.window.frame, &threads.window.frames);
   AddThreads(threads_app, &threads.threads);
+  AddWork(threads_app, &threads.work);
   threads_app->add_flag("--parts", threads.parts,
                         "Also what threads are busy with; reads the clock at each unit of work");
 
@@ -111,6 +118,7 @@ int Main(int count, char** arguments) {
   AddScenes(scaling_app, &scaling_scenes);
   AddFrames(scaling_app, &scaling.window.frame, &scaling.window.frames);
   AddThreads(scaling_app, &scaling.threads);
+  AddWork(scaling_app, &scaling.work);
   scaling_app
       ->add_option("--gaps", scaling.gaps,
                    "Also the so many longest stretches in which one thread is alone, cut for the "
@@ -122,6 +130,7 @@ int Main(int count, char** arguments) {
       app.add_subcommand("mt", "Bullet's multithreaded world, with its solvers and with Cairn");
   AddFrames(mt_app, &mt.window.frame, &mt.window.frames);
   AddThreads(mt_app, &mt.threads);
+  AddWork(mt_app, &mt.work);
 
   WindowOptions swap{.scenes = {}, .frame = 60, .frames = 40};
   std::vector<std::string> swap_scenes = {"pyramid:100", "castle",   "pyramid3d",    "wall",
@@ -133,10 +142,12 @@ int Main(int count, char** arguments) {
   AddFrames(swap_app, &swap.frame, &swap.frames);
 
   WindowOptions step;
+  Work step_work = Work::kPlainSweeps;
   std::vector<std::string> step_scenes = swap_scenes;
   CLI::App* const step_app = app.add_subcommand("step", "Whole steps of a world");
   AddScenes(step_app, &step_scenes);
   AddFrames(step_app, &step.frame, &step.frames);
+  AddWork(step_app, &step_work);
 
   PartsWords parts;
   CLI::App* const parts_app = app.add_subcommand("parts", "Where a substep goes");
@@ -186,7 +197,7 @@ int Main(int count, char** arguments) {
     PrintScaling(scaling, command);
   } else if (step_app->parsed()) {
     step.scenes = ParseScenes(step_scenes);
-    PrintSteps(step, command);
+    PrintSteps(step, step_work, command);
   } else {
     threads.window.scenes = ParseScenes(thread_scenes);
     PrintThreads(threads, command);
@@ -209,6 +220,16 @@ Settings Sweeps(int count, int threads) {
   settings.tuning.min_progress = 0;
   settings.threads = threads;
   return settings;
+}
+
+Settings SettingsFor(Work work, int threads) {
+  constexpr int kIterations = 10;
+  if (work == Work::kPlainSweeps) return Sweeps(kIterations, threads);
+  return {.threads = threads};
+}
+
+std::string Describe(Work work) {
+  return work == Work::kPlainSweeps ? "ten plain sweeps" : "ten iterations with default settings";
 }
 
 }  // namespace cairn::frames

@@ -150,8 +150,8 @@ class TimedWorld final : public btDiscreteDynamicsWorldMt {
 
 class OfCairn final : public Contestant {
  public:
-  OfCairn(Boxes::Kind kind, int threads)
-      : scheduler_(threads), pool_(Sweeps(kIterations, threads)) {
+  OfCairn(Boxes::Kind kind, Work work, int threads)
+      : scheduler_(threads), pool_(SettingsFor(work, threads)) {
     btSetTaskScheduler(&scheduler_);
     dispatcher_ = std::make_unique<btCollisionDispatcherMt>(&configuration_);
     world_ = std::make_unique<TimedWorld>(dispatcher_.get(), &broadphase_, &pool_, nullptr,
@@ -205,9 +205,9 @@ class OfBullet final : public Contestant {
 };
 
 /// In a world that is gone when it returns: threads of one that wait for work delay another.
-template <class World>
-std::vector<StepTimes> StepsOf(Boxes::Kind kind, int threads, const WindowOptions& window) {
-  World world(kind, threads);
+template <class World, class... What>
+std::vector<StepTimes> StepsOf(const WindowOptions& window, const What&... what) {
+  World world(what...);
   for (int frame = 0; frame < window.frame + window.frames; ++frame) {
     world.Step(frame >= window.frame);
   }
@@ -229,13 +229,12 @@ void PrintMtWorlds(const ThreadOptions& options, const std::string& command) {
   fmt::print("{}", cli::Origin("Bullet's multithreaded world, with its own solvers and with Cairn",
                                cli::DescribeContext(command)));
   fmt::print(
-      "- btDiscreteDynamicsWorldMt, ten iterations, no subspace step; Bullet: its scheduler, its "
-      "pool and\n  btSequentialImpulseConstraintSolverMt; Cairn: TaskScheduler and "
-      "ConstraintSolverPool\n"
+      "- btDiscreteDynamicsWorldMt, ten iterations; Bullet: its scheduler, its pool and\n"
+      "  btSequentialImpulseConstraintSolverMt; Cairn: TaskScheduler and ConstraintSolverPool, {}\n"
       "- {} frames, one world after the other; medians, wall clock, ms. Solver: from the first "
       "group to "
       "the last\n\n",
-      options.window.frames);
+      Describe(options.work), options.window.frames);
   cli::TextTable table =
       cli::TableOf({"scene", "threads", "solver of", "step", "collisions", "islands", "solver",
                     "rest", "step on one / this", "Bullet / Cairn, solver"});
@@ -243,8 +242,8 @@ void PrintMtWorlds(const ThreadOptions& options, const std::string& command) {
                                    {Boxes::Kind::kRain, "3150 falling"}}) {
     std::array<double, 2> one{};
     for (const int threads : options.threads) {
-      const auto bullet = StepsOf<OfBullet>(kind, threads, options.window);
-      const auto cairn = StepsOf<OfCairn>(kind, threads, options.window);
+      const auto bullet = StepsOf<OfBullet>(options.window, kind, threads);
+      const auto cairn = StepsOf<OfCairn>(options.window, kind, options.work, threads);
       const auto add = [&](const char* who, const std::vector<StepTimes>& steps, double* first,
                            std::string ratio) {
         const double step = MedianOf(steps, &StepTimes::step);

@@ -27,7 +27,7 @@
 namespace cairn::frames {
 namespace {
 
-constexpr int kSweeps = 10, kMostSpans = 65536;
+constexpr int kIterations = 10, kMostSpans = 65536;
 
 /// Nobody ever comes: the caller does all, cut as for the threads that were asked for.
 class Nobody final : public Executor {
@@ -191,10 +191,10 @@ void PrintAlone(std::vector<Alone> alone, size_t frames, int most, const std::st
 /// A world that Cairn drives.
 class World {
  public:
-  World(const SceneChoice& scene, int threads, Executor* executor)
-      : solver_(Sweeps(kSweeps, threads)), run_(scene, &solver_) {
+  World(const SceneChoice& scene, Work work, int threads, Executor* executor)
+      : solver_(SettingsFor(work, threads)), run_(scene, &solver_) {
     solver_.settings().executor = executor;
-    run_.world().solver_info().m_numIterations = kSweeps;
+    run_.world().solver_info().m_numIterations = kIterations;
   }
   void Record() { solver_.settings().tuning.spans = &spans_; }
   /// @return what the solver took [us]
@@ -237,9 +237,10 @@ std::string SerialParts(const std::vector<Forecast>& forecasts) {
 void PrintScaling(const ThreadOptions& options, const std::string& command) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   const Barriers barriers(options.threads, cores);
-  fmt::print("{}", cli::Origin("Scaling: what substeps of ten plain sweeps would take on so many "
-                               "threads",
-                               cli::DescribeContext(command)));
+  fmt::print("{}",
+             cli::Origin(fmt::format("Scaling: what substeps of {} would take on so many threads",
+                                     Describe(options.work)),
+                         cli::DescribeContext(command)));
   fmt::print(
       "- {} frames, medians, ms. One thread does what is cut for so many, and spans say what "
       "others could have done:\n"
@@ -259,7 +260,8 @@ void PrintScaling(const ThreadOptions& options, const std::string& command) {
     for (const int threads : options.threads) {
       Nobody nobody;
       const bool can = threads <= cores;
-      World cut(scene, threads, &nobody), real(scene, can ? threads : 1, nullptr);
+      World cut(scene, options.work, threads, &nobody);
+      World real(scene, options.work, can ? threads : 1, nullptr);
       std::vector<Forecast> forecasts;
       std::vector<double> measured;
       const bool with_gaps = options.gaps > 0 && threads == options.threads.back();

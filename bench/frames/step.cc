@@ -46,10 +46,11 @@ class TimedWorld {
 
 }  // namespace
 
-void PrintSteps(const WindowOptions& options, const std::string& command) {
-  fmt::print("{}",
-             cli::Origin("Whole steps of a world: ten iterations, no subspace step, one thread",
-                         cli::DescribeContext(command)));
+void PrintSteps(const WindowOptions& options, Work work, const std::string& command) {
+  fmt::print("{}", cli::Origin(fmt::format("Whole steps of a world: Bullet's ten iterations, and "
+                                           "Cairn's {}; one thread",
+                                           Describe(work)),
+                               cli::DescribeContext(command)));
   fmt::print("- two worlds in turn, {} frames; medians, wall clock, milliseconds\n\n",
              options.frames);
   cli::TextTable table =
@@ -57,7 +58,7 @@ void PrintSteps(const WindowOptions& options, const std::string& command) {
                     "outside the solver", "ratio of steps", "ratio of solvers"});
   for (const SceneChoice& scene : options.scenes) {
     btSequentialImpulseConstraintSolver stock;
-    bullet::ConstraintSolver cairn(Sweeps(kIterations, 1));
+    bullet::ConstraintSolver cairn(SettingsFor(work, 1));
     TimedWorld bullet_world(scene, &stock), cairn_world(scene, &cairn);
     const int first = scene.FirstFrame(options.frame);
     for (int frame = 0; frame < first + options.frames; ++frame) {

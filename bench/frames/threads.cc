@@ -21,14 +21,14 @@
 namespace cairn::frames {
 namespace {
 
-constexpr int kSweeps = 10;
+constexpr int kIterations = 10;
 
 /// A world that Cairn drives with so many threads, and what its steps took [ms].
 class ThreadedWorld {
  public:
-  ThreadedWorld(const SceneChoice& scene, int threads)
-      : threads_(threads), solver_(Sweeps(kSweeps, threads)), run_(scene, &solver_) {
-    run_.world().solver_info().m_numIterations = kSweeps;
+  ThreadedWorld(const SceneChoice& scene, Work work, int threads)
+      : threads_(threads), solver_(SettingsFor(work, threads)), run_(scene, &solver_) {
+    run_.world().solver_info().m_numIterations = kIterations;
   }
 
   /// What threads are busy with, from now on.
@@ -122,7 +122,8 @@ void PrintBusy(const Worlds& worlds, const std::string& scene) {
 }  // namespace
 
 void PrintThreads(const ThreadOptions& options, const std::string& command) {
-  fmt::print("{}", cli::Origin("Threads: a substep of ten plain sweeps in worlds of their own",
+  fmt::print("{}", cli::Origin(fmt::format("Threads: a substep of {} in worlds of their own",
+                                           Describe(options.work)),
                                cli::DescribeContext(command)));
   fmt::print(
       "- {} frames, the worlds in turn; medians, wall clock, ms; ratios to the first number of "
@@ -141,7 +142,7 @@ void PrintThreads(const ThreadOptions& options, const std::string& command) {
     counts.insert(counts.begin() + 1, counts.front());
     Worlds worlds;
     for (const int threads : counts) {
-      worlds.push_back(std::make_unique<ThreadedWorld>(scene, threads));
+      worlds.push_back(std::make_unique<ThreadedWorld>(scene, options.work, threads));
     }
     const int first = scene.FirstFrame(options.window.frame);
     for (int frame = 0; frame < first + options.window.frames; ++frame) {

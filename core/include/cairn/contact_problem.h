@@ -74,8 +74,7 @@ struct Impulses {
   std::span<float> joint_rows = {};       ///< One per ContactProblem::joint_rows [N s] or [N m s].
 };
 
-/// One number per row, in their order and along the directions of friction that Measure() finds,
-/// as it wants them. @pre they belong to the problem, which is valid
+/// One number per row, in their order and along the directions of Measure(). @pre they belong to it
 std::vector<double> AllImpulses(const ContactProblem& problem, const Impulses& impulses);
 
 /// Measures impulses, one per row in the order of ContactProblem, in double precision and from the

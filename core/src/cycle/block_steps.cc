@@ -51,6 +51,20 @@ constexpr double kShareOfScalar = 0.85;
 /// more time where they change, and gape no less.
 constexpr double kLoad = 100;
 
+/// function(island, count) for lanes of one island that follow each other, of some of a block.
+template <class Function>
+void ForStretches(const Plan& plan, int block, int first, int lanes, const Function& function) {
+  const int* const islands = plan.islands_of(block);
+  for (int begin = first, end = first; begin < first + lanes; begin = end) {
+    const int island = islands[begin];
+    while (end < first + lanes && islands[end] == island) ++end;
+    function(island, end - begin);
+  }
+}
+
+/// That so many lanes fill, or begin to.
+int LinesOf(int lanes) { return (lanes + simd::kLanes - 1) / simd::kLanes; }
+
 }  // namespace
 
 void BlockSteps::Begin(const CycleFrame& frame) {
@@ -136,9 +150,9 @@ void BlockSteps::ReadPlan() {
   plan_number_ = frame_->plan_number();
   ReadIslands();
   CountLines();
-  for (int body : frame_->plan().body_of_slot()) {
-    if (body == kWorld) continue;
+  for (int body = 0; body < static_cast<int>(problem_->bodies.size()); ++body) {
     const int island = frame_->plan().island_of_body()[body];
+    if (island < 0) continue;
     set_up_[island] += kSetUpBody;
     keys_[island] = std::min(keys_[island], BodyNameOf(problem_->bodies[body], body));
   }
@@ -154,11 +168,11 @@ void BlockSteps::ReadIslands() {
     const bool joints =
         std::any_of(block.rows, block.rows + block.row_count,
                     [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      const int island = plan.island_of(b, lane);
-      set_up_[island] += block.row_count * (joints ? kSetUpJointRow : kSetUpRow);
-      scalar_set_up_[island] += block.row_count * (joints ? kScalarJointRow : kScalarRow);
-    }
+    ForStretches(plan, b, 0, block.lanes, [&](int island, int lanes) {
+      const int rows = lanes * block.row_count;
+      set_up_[island] += rows * (joints ? kSetUpJointRow : kSetUpRow);
+      scalar_set_up_[island] += rows * (joints ? kScalarJointRow : kScalarRow);
+    });
   }
 }
 
@@ -179,15 +193,14 @@ void BlockSteps::CountLines() {
     const simd::LaneRun& run = plan.runs()[r];
     const simd::PairBlock& block = plan.blocks()[run.block];
     const Alike here{plan.colour_of(r), block.rows, block.row_count, 0};
-    for (int lane = run.first; lane < run.first + run.lanes; ++lane) {
-      const int island = plan.island_of(run.block, lane);
+    ForStretches(plan, run.block, run.first, run.lanes, [&](int island, int lanes) {
       Alike& alike = alike_[island];
       if (alike.colour != here.colour || alike.shape != here.shape) {
         close(island);
         alike = here;
       }
-      ++alike.lanes;
-    }
+      alike.lanes += lanes;
+    });
   }
   for (int i = 0; i < static_cast<int>(plan.islands().size()); ++i) close(i);
   CountStepLines();
@@ -200,8 +213,7 @@ void BlockSteps::CountStepLines() {
   lanes_of_shapes_.clear();
   for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
     const simd::PairBlock& block = plan.blocks()[b];
-    for (int lane = 0; lane < block.lanes; ++lane) {
-      const int island = plan.island_of(b, lane);
+    ForStretches(plan, b, 0, block.lanes, [&](int island, int lanes) {
       int at = latest_shape_[island];
       while (at >= 0 && lanes_of_shapes_[at].shape != block.rows) at = lanes_of_shapes_[at].before;
       if (at < 0) {
@@ -210,8 +222,11 @@ void BlockSteps::CountStepLines() {
         latest_shape_[island] = at;
       }
       // a line for each row of sixteen lanes, and of those that are left
-      if (lanes_of_shapes_[at].lanes++ % simd::kLanes == 0) step_lines_[island] += block.row_count;
-    }
+      int& all = lanes_of_shapes_[at].lanes;
+      const int before = LinesOf(all);
+      all += lanes;
+      step_lines_[island] += block.row_count * (LinesOf(all) - before);
+    });
   }
 }
 
