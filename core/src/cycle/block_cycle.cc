@@ -165,10 +165,10 @@ bool BlockCycle::Sweep(int count) {
       whole = sweeps_->Sweep(1, islands_.groups());
     }
     if (!whole) return false;
-    islands_.See(islands_.groups(), sweeps_);
-    for (size_t g = 0; g < islands_.groups().size(); ++g) {
-      if (islands_.groups()[g].active) LearnDirections(static_cast<int>(g));
-    }
+    sweeps_->ErrorsOfIslands(islands_.groups(), islands_.sights(), [this](int g) {
+      islands_.See(g);
+      LearnDirections(g);
+    });
   }
   return true;
 }

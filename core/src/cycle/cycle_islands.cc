@@ -69,10 +69,7 @@ int CycleIslands::StepsTaken(int island) const {
 }
 
 void CycleIslands::See(std::span<const GroupSweeps> groups, BlockSweeps* sweeps) {
-  sweeps->ErrorsOfIslands(groups, last_seen_);
-  for (size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].active) See(static_cast<int>(g));
-  }
+  sweeps->ErrorsOfIslands(groups, last_seen_, [this](int g) { See(g); });
 }
 
 void CycleIslands::See(int group) {

@@ -7,14 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "runtime/in_parts.h"
 #include "sweep/sum_scale.h"
 
 namespace cairn {
 namespace {
-
-/// Errors of islands are added up: no pass over the plan.
-constexpr SpanLabel kErrors{SpanKind::kMeasure, 0, -1};
 
 /// Energies are summed as whole numbers of this many bits, of which doubles hold the sum of eight
 /// million exactly: in whatever order lanes come, an island has the same sum.
@@ -277,23 +273,6 @@ void BlockSweeps::MeasureAt(double price, std::span<const GroupSweeps> groups) {
   Pass pass(*this, Pass::Kind::kMeasure, groups, 1, price);
   crew_->Run(&pass);
   pass.Finish();
-}
-
-void BlockSweeps::ErrorsOfIslands(std::span<const GroupSweeps> groups,
-                                  std::span<Residual> residuals) {
-  const Plan& plan = frame_->plan();
-  ForUnits(
-      static_cast<int>(groups.size()), crew_,
-      [&](int g) {
-        const Group& group = plan.groups()[g];
-        if (groups[g].active && !IsForAll(group)) ErrorsOfGroup(group, residuals);
-      },
-      kErrors);
-  for (size_t g = 0; g < groups.size(); ++g) {
-    const Group& group = plan.groups()[g];
-    if (!groups[g].active || !IsForAll(group)) continue;
-    residuals[plan.islands_of_groups()[group.first_island]] = ErrorByAll(group);
-  }
 }
 
 bool BlockSweeps::IsForAll(const Group& group) const {

@@ -7,6 +7,7 @@
 #include "pack/block_frame.h"
 #include "runtime/budget.h"
 #include "runtime/crew.h"
+#include "runtime/in_parts.h"
 
 namespace cairn {
 
@@ -48,12 +49,20 @@ class BlockSweeps {
 
   /// What the errors of active groups amount to, for each of their islands, into one entry for each
   /// of the plan.
-  void ErrorsOfIslands(std::span<const GroupSweeps> groups, std::span<Residual> residuals);
+  void ErrorsOfIslands(std::span<const GroupSweeps> groups, std::span<Residual> residuals) {
+    ErrorsOfIslands(groups, residuals, [](int) {});
+  }
+  /// The same, and then(group) for each of these groups, on any thread.
+  template <class Then>
+  void ErrorsOfIslands(std::span<const GroupSweeps> groups, std::span<Residual> residuals,
+                       const Then& then);
   /// The same for the islands of one group.
   void ErrorsOfGroup(const Group& group, std::span<Residual> residuals) const;
 
  private:
   static constexpr int kManyBlocks = 128;
+  /// Errors of islands are added up: no pass over the plan.
+  static constexpr SpanLabel kErrors{SpanKind::kMeasure, 0, -1};
   class Pass;
   /// What goes over blocks, so many times, the last time with another kernel.
   struct Kernels {
@@ -86,5 +95,26 @@ class BlockSweeps {
   BudgetMeter* meter_;
   Crew* crew_;
 };
+
+template <class Then>
+void BlockSweeps::ErrorsOfIslands(std::span<const GroupSweeps> groups,
+                                  std::span<Residual> residuals, const Then& then) {
+  const Plan& plan = frame_->plan();
+  ForUnits(
+      static_cast<int>(groups.size()), crew_,
+      [&](int g) {
+        const Group& group = plan.groups()[g];
+        if (!groups[g].active || IsForAll(group)) return;
+        ErrorsOfGroup(group, residuals);
+        then(g);
+      },
+      kErrors);
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const Group& group = plan.groups()[g];
+    if (!groups[g].active || !IsForAll(group)) continue;
+    residuals[plan.islands_of_groups()[group.first_island]] = ErrorByAll(group);
+    then(static_cast<int>(g));
+  }
+}
 
 }  // namespace cairn
