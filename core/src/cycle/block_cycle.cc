@@ -243,7 +243,7 @@ void BlockCycle::JudgeIslands(bool seen) {
     const int sweeps = islands_.group_of(i).sweeps;
     if (frame_->meter->spent() && sweeps >= LeastSweeps(settings)) {
       islands_.Stop(i, frame_->meter->stop_reason());
-    } else if (sweeps >= planner_.MostSweeps(i)) {
+    } else if (sweeps >= settings.max_sweeps && sweeps >= planner_.MostSweeps(i)) {
       islands_.Stop(i, StopReason::kSweepLimit);
     }
   }

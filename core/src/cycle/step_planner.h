@@ -19,7 +19,7 @@ class StepPlanner {
   void Begin(const CycleFrame& frame, BlockSteps* steps, CycleIslands* islands);
   /// Islands that take a step now; those of a group follow each other.
   std::span<const int> PlanRound();
-  /// How many sweeps an island makes without a step.
+  /// How many sweeps an island makes without a step, Settings::max_sweeps at least.
   int SweepsInPlace(int island) const;
   /// The same as far as steps were taken there.
   int MostSweeps(int island) const;
