@@ -181,7 +181,6 @@ PackResult BlockFrame::Begin(const ContactProblem& problem, double omega, const 
     if (!planned_) return PackResult::kInvalid;
     PackerOf(problem).Reserve(&blocks_);
     if (errors_.size() < plan_.blocks().size()) errors_.resize(plan_.blocks().size());
-    if (scales_.size() < plan_.islands().size()) scales_.resize(plan_.islands().size());
     result = Pack(problem, impulses, crew);
   }
   if (result == PackResult::kDone) Start(crew);

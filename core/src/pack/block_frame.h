@@ -36,8 +36,6 @@ class BlockFrame {
   bool strained() const { return strained_; }
   BlockData& blocks() { return blocks_; }
   std::span<simd::BlockError> errors() { return errors_; }
-  /// Room for one number of each island, to sum errors with.
-  std::span<double> scales() { return scales_; }
   simd::Target target() const { return target_; }
   const simd::PairKernels& kernels() const { return *kernels_; }
   const simd::LaneKernels& lane_kernels() const { return *lane_kernels_; }
@@ -77,7 +75,6 @@ class BlockFrame {
   Array<simd::ContactBody> contact_bodies_;
   BlockData blocks_;
   Array<simd::BlockError> errors_;
-  Array<double> scales_;
 };
 
 }  // namespace cairn

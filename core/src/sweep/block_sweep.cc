@@ -324,25 +324,29 @@ void BlockSweeps::ErrorsOfGroup(const Group& group, std::span<Residual> residual
     residuals[islands[0]] = HasFewLanes(group) ? ErrorOfFewLanes(group) : ErrorOfGroup(group);
     return;
   }
-  const std::span<double> scales = frame_->scales();
-  for (int island : islands) residuals[island] = {};
-  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
-    Residual& residual = residuals[island];
-    residual.max = std::max<double>(residual.max, error.max.lane[lane]);
-    residual.max_angular = std::max<double>(residual.max_angular, error.max_angular.lane[lane]);
-    residual.energy = std::max<double>(residual.energy, error.energy.lane[lane]);
-  });
-  for (int island : islands) {
-    scales[island] = SumScale(residuals[island].energy, kEnergyBits);
-    residuals[island].energy = 0;
+  for (const int island : islands) residuals[island] = ErrorOfIsland(plan.lanes_of(island));
+}
+
+Residual BlockSweeps::ErrorOfIsland(std::span<const int> lanes) const {
+  const simd::BlockError* const errors = frame_->errors().data();
+  const auto energy_at = [errors](unsigned lane) {
+    return errors[lane / simd::kLanes].energy.lane[lane % simd::kLanes];
+  };
+  float max = 0, max_angular = 0, energy = 0;
+  for (const unsigned at : lanes) {
+    const simd::BlockError& error = errors[at / simd::kLanes];
+    max = std::max(max, error.max.lane[at % simd::kLanes]);
+    max_angular = std::max(max_angular, error.max_angular.lane[at % simd::kLanes]);
+    energy = std::max(energy, energy_at(at));
   }
-  ForLanes(group, [&](const simd::BlockError& error, int lane, int island) {
-    residuals[island].energy +=
-        simd::Rounded(static_cast<double>(error.energy.lane[lane]) * scales[island]);
-  });
-  for (int island : islands) {
-    residuals[island].energy = std::sqrt(residuals[island].energy / scales[island]);
+  // a float has less than kEnergyBits
+  if (lanes.size() == 1) return {max, max_angular, std::sqrt(double{energy_at(lanes[0])})};
+  const double scale = SumScale(energy, kEnergyBits);
+  double whole = 0;
+  for (const unsigned at : lanes) {
+    whole += simd::Rounded(static_cast<double>(energy_at(at)) * scale);
   }
+  return {max, max_angular, std::sqrt(whole / scale)};
 }
 
 bool BlockSweeps::HasFewLanes(const Group& group) const {
@@ -355,17 +359,24 @@ bool BlockSweeps::HasFewLanes(const Group& group) const {
 }
 
 Residual BlockSweeps::ErrorOfFewLanes(const Group& group) const {
+  const std::span<const simd::PairBlock> blocks =
+      frame_->plan().blocks().subspan(group.first_block, group.blocks);
+  const simd::BlockError* const errors = frame_->errors().data() + group.first_block;
   float max = 0, max_angular = 0, energy = 0;
-  ForLanes(group, [&](const simd::BlockError& error, int lane, int) {
-    max = std::max(max, error.max.lane[lane]);
-    max_angular = std::max(max_angular, error.max_angular.lane[lane]);
-    energy = std::max(energy, error.energy.lane[lane]);
-  });
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    for (int lane = 0; lane < blocks[b].lanes; ++lane) {
+      max = std::max(max, errors[b].max.lane[lane]);
+      max_angular = std::max(max_angular, errors[b].max_angular.lane[lane]);
+      energy = std::max(energy, errors[b].energy.lane[lane]);
+    }
+  }
   const double scale = SumScale(energy, kEnergyBits);
   double whole = 0;
-  ForLanes(group, [&](const simd::BlockError& error, int lane, int) {
-    whole += simd::Rounded(static_cast<double>(error.energy.lane[lane]) * scale);
-  });
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    for (int lane = 0; lane < blocks[b].lanes; ++lane) {
+      whole += simd::Rounded(static_cast<double>(errors[b].energy.lane[lane]) * scale);
+    }
+  }
   return {.max = max, .max_angular = max_angular, .energy = std::sqrt(whole / scale)};
 }
 
@@ -385,17 +396,6 @@ Residual BlockSweeps::ErrorOfGroup(const Group& group) const {
   return {.max = largest_of(largest.max),
           .max_angular = largest_of(largest.max_angular),
           .energy = std::sqrt(whole / scale)};
-}
-
-template <class Function>
-void BlockSweeps::ForLanes(const Group& group, const Function& function) const {
-  const Plan& plan = frame_->plan();
-  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    const simd::BlockError& error = frame_->errors()[b];
-    const int* const islands = plan.islands_of(b);
-    const int lanes = plan.blocks()[b].lanes;
-    for (int lane = 0; lane < lanes; ++lane) function(error, lane, islands[lane]);
-  }
 }
 
 }  // namespace cairn

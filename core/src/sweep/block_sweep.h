@@ -86,9 +86,8 @@ class BlockSweeps {
   /// The same of a group that is one island.
   Residual ErrorOfGroup(const Group& group) const;
   Residual ErrorOfFewLanes(const Group& group) const;
-  /// function(errors of a block, lane, island)
-  template <class Function>
-  void ForLanes(const Group& group, const Function& function) const;
+  /// Likewise of some lanes, Plan::lanes_of().
+  Residual ErrorOfIsland(std::span<const int> lanes) const;
 
   BlockFrame* frame_;
   const Settings& settings_;
