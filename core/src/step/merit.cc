@@ -173,46 +173,35 @@ void IslandMerits::AddWhole(const simd::LaneKernels& kernels, const Group& group
 void IslandMerits::AddShared(const Plan& plan, const Group& group) {
   const auto islands = plan.islands_in(group);
   const size_t lanes = static_cast<size_t>(group.blocks) * kLanes;
-  const double* const gains = gains_.data() + size_t{kLanes} * group.first_block;
+  for (const int i : islands) {
+    double most = 0, whole = 0;
+    for (const int lane : plan.lanes_of(i)) most = std::max(most, std::abs(gains_[lane]));
+    const double scale = SumScale(most, kSumBits);
+    for (const int lane : plan.lanes_of(i)) whole += simd::Rounded(gains_[lane] * scale);
+    merits_[i].gain = whole / scale;
+  }
   const double* const squares = SquaresOf(group);
-  // add(island, number) for all lanes, and for those that are soft and bodies
-  const auto for_lanes = [&](int b, const double* numbers, const auto& add) {
-    const int* const of_lane = plan.islands_of(group.first_block + b);
-    const int used = plan.blocks()[group.first_block + b].lanes;
-    const size_t first = static_cast<size_t>(b) * kLanes;
-    for (int l = 0; l < used; ++l) add(of_lane[l], numbers[first + l]);
-  };
-  const auto for_gains = [&](const auto& add) {
-    for (int b = 0; b < group.blocks; ++b) for_lanes(b, gains, add);
-  };
+  // add(island, number) for all lanes that are soft, and for bodies
   const auto for_squares = [&](const auto& add) {
     for (int b = 0; b < group.blocks; ++b) {
-      if (of_blocks_[group.first_block + b].soft) for_lanes(b, squares, add);
+      if (!of_blocks_[group.first_block + b].soft) continue;
+      const int* const of_lane = plan.islands_of(group.first_block + b);
+      const int used = plan.blocks()[group.first_block + b].lanes;
+      for (int l = 0; l < used; ++l) add(of_lane[l], squares[static_cast<size_t>(b) * kLanes + l]);
     }
     for (int slot = 0; slot < group.slots; ++slot) {
       const int body = plan.body_of_slot()[group.first_slot + slot];
       if (body != kWorld) add(plan.island_of_body()[body], squares[lanes + slot]);
     }
   };
-  for (int i : islands) scales_[i] = {};
-  for_gains([this](int island, double gain) {
-    scales_[island].gain = std::max(scales_[island].gain, std::abs(gain));
-  });
+  for (const int i : islands) scales_[i] = 0;
+  for_squares(
+      [this](int island, double square) { scales_[island] = std::max(scales_[island], square); });
+  for (const int i : islands) scales_[i] = SumScale(scales_[i], kSumBits);
   for_squares([this](int island, double square) {
-    scales_[island].square = std::max(scales_[island].square, square);
+    merits_[island].square += simd::Rounded(square * scales_[island]);
   });
-  for (int i : islands)
-    scales_[i] = {SumScale(scales_[i].gain, kSumBits), SumScale(scales_[i].square, kSumBits)};
-  for_gains([this](int island, double gain) {
-    merits_[island].gain += simd::Rounded(gain * scales_[island].gain);
-  });
-  for_squares([this](int island, double square) {
-    merits_[island].square += simd::Rounded(square * scales_[island].square);
-  });
-  for (int i : islands) {
-    merits_[i].gain /= scales_[i].gain;
-    merits_[i].square /= scales_[i].square;
-  }
+  for (const int i : islands) merits_[i].square /= scales_[i];
 }
 
 void ScaleIslands(const Plan& plan, std::span<const float> factors, BlockData* blocks) {

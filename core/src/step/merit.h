@@ -123,11 +123,7 @@ class IslandMerits {
   double* SquaresOf(const Group& group);
 
   Array<Merit> merits_;
-  /// Bring the largest number of a sum to so many bits, by island.
-  struct Scale {
-    double gain = 0, square = 0;
-  };
-  Array<Scale> scales_;
+  Array<double> scales_;  ///< bring the largest square of a sum to so many bits, by island
   /// By lane of all blocks; group by group, squares by lane and then those of bodies.
   Array<double> gains_, squares_;
   struct OfBlock {
