@@ -136,7 +136,7 @@ void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies,
 void GeometricStiffness::TakeRaised(const simd::RaisedInertia& lanes, size_t lane,
                                     const Strained& strained, std::span<Body> bodies) {
   const Matrix3 inv_inertia = WholeOf(lanes.inv_inertia, lane);
-  // nor is what came of an inertia that was not
+  // the inertia was not: the solver will say so
   if (!std::isfinite(View(inv_inertia).sum())) return;
   Body& body = bodies[strained.body];
   Memory& memory = *strained.memory;
@@ -335,7 +335,7 @@ void GeometricStiffness::AddAlongWorldAxes(double time_step, const Joint& joint,
         force);
   }
   if (IsPulled(joint.body_b)) {
-    // both the arm and the force are the opposite
+    // its arm is the opposite of that, and its force: their products are the same
     Add(joint.body_b, ArmOfWorldAxes(rows[0].angular_b, rows[1].angular_b, rows[2].angular_b),
         force);
   }

@@ -81,6 +81,16 @@ class PartsTest(unittest.TestCase):
             self.assertNotEqual(result.stderr, "", words)
 
 
+class WorkTest(unittest.TestCase):
+    def test_what_is_timed_is_plain_sweeps_or_what_users_get(self):
+        for command in ("threads", "scaling", "step"):
+            for words, work in (([], "ten plain sweeps"), (["--default"], "ten iterations with default settings")):
+                result = frames(command, "--scene", "tower:3", "--frame", "2", "--frames", "2", *words)
+                self.assertEqual((result.returncode, result.stderr), (0, ""), command)
+                self.assertIn(work, result.stdout.splitlines()[0])
+                self.assertIn("| tower 3 ", result.stdout, command)
+
+
 class FootprintTest(unittest.TestCase):
     def table(self, *arguments):
         """Rows by solver, and all lines of the output."""
