@@ -72,6 +72,11 @@ std::string OwnName(SolverUser user, std::string_view name) {
   for (const auto& same : kSame) {
     if (std::ranges::find(same, name) != same.end()) return std::string(same[size_t(user)]);
   }
+  if (user == SolverUser::kWorlds && name.starts_with("bullet")) {
+    throw Failure(kUsage, fmt::format("'{}': cairn worlds runs Bullet beside all others anyway; "
+                                      "--solver names those of Cairn",
+                                      name));
+  }
   std::vector<std::string> owners;
   for (const SolverUser other : kUsers) {
     if (Contains(OwnNames(other), name)) owners.emplace_back(kCommands[size_t(other)]);

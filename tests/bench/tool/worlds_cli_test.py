@@ -130,8 +130,9 @@ class WorldsTest(CairnTest):
         for typed in ("cairn-pgs,pgs-sm", "pgs-nncg,cairn"):
             text = self.worlds(*QUICK[1:], "--solver", typed)
             self.assertRegex(text, r"(?m)^bullet-100 .*\ncairn-sweeps .*\ncairn ")
-        message = self.refused(USAGE, "worlds", "--seed", "1", "--solver", "bullet-si")
-        self.assertIn("'bullet-si' is a solver of cairn run and cairn solve", message)
+        for bullet in ("bullet", "bullet-si"):
+            self.assertIn(f"'{bullet}': cairn worlds runs Bullet beside all others anyway",
+                          self.refused(USAGE, "worlds", "--seed", "1", "--solver", f"cairn,{bullet}"))
         self.assertIn("cairn-sweeps comes nearest",
                       self.refused(USAGE, "worlds", "--seed", "1", "--solver", "pgs"))
 
