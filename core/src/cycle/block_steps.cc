@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "cycle/joint_arms.h"
 #include "problem/body_name.h"
@@ -404,25 +405,26 @@ double BlockSteps::PriceAloneOf(int group, int island, int factorisations, doubl
   BlockSystem<T>& system = SystemOf<T>(group);
   IslandMemory* const memory = MemoryOf(island);
   const double lines = step_lines_[island], bodies = of.bodies;
-  const auto price_of = [&](const FactorSize& own) {
-    return PriceOf<T>({lines, own.flops, own.nonzeros, bodies}, factorisations);
+  const auto known = [&](double share) {
+    const FactorSize own{share * system.flops(), share * system.nonzeros(), bodies};
+    return std::pair(own, PriceOf<T>({lines, own.flops, own.nonzeros, bodies}, factorisations));
   };
-  if (!system.IsPreparedFor(frame_->plan_number(), group) &&
-      memory->factor_size().bodies == bodies) {
-    // no graph of these bodies that is not known costs less
-    const double least = price_of(memory->factor_size());
-    if (least > most) return least;
-  }
-  if (!system.Recognise(frame_->plan(), frame_->plan_number(), group)) {
+  const auto unknown = [&] {
     // mostly there are about as many pairs as bodies
     const double analysis = 2 * kAnalyse * bodies / system.steps_of_analysis();
     const Unknown graph{lines, 1.0 * of.rows, bodies};
     return GuessOf<T>(graph, memory->factor_size(), factorisations) + analysis;
+  };
+  const bool alone = frame_->plan().groups()[group].islands == 1;
+  if (alone && !system.IsPreparedFor(frame_->plan_number(), group)) {
+    // whether its graph is known or not
+    const double least = system.was_analysed() ? std::min(known(1).second, unknown()) : unknown();
+    if (least > most) return least;
   }
-  const double share = bodies / system.nodes();
-  const FactorSize own{share * system.flops(), share * system.nonzeros(), bodies};
+  if (!system.Recognise(frame_->plan(), frame_->plan_number(), group)) return unknown();
+  const auto [own, price] = known(bodies / system.nodes());
   memory->Remember(own);
-  return price_of(own);
+  return price;
 }
 
 void BlockSteps::Take(int group, std::span<const int> islands) {

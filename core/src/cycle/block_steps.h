@@ -42,8 +42,8 @@ class BlockSteps {
   StepOdds& odds(int island) { return MemoryOf(island)->odds(); }
   /// What a step with so many factorisations costs on one island, as if it had lanes of its own,
   /// and what reading, packing, so many sweeps, and writing do. The first is a guess from the last
-  /// frames while the graph is not known, or where they say that it is above @p most: to look at
-  /// the graph of a large island takes a while.
+  /// frames while the graph is not known. Where it is above @p most either way, nobody looks: to
+  /// find the graph of a large island again takes a while.
   double PriceAlone(int group, int island, int factorisations, double most);
   /// Each step there condenses joints, which is a factorisation more; see pays_for_condensing().
   bool CondensesJoints(int island) { return MemoryOf(island)->pays_for_condensing(); }

@@ -59,6 +59,8 @@ class BlockSystem : public detail::Placed {
   /// Analyses the graph that was not recognised. Pairs of the one before stay in it if they are
   /// few.
   void Analyse(const Plan& plan);
+  /// There is a graph that Recognise() may find again.
+  bool was_analysed() const { return !bodies_.empty(); }
   /// Bodies and pairs of bodies of the group: what an analysis is to look at.
   double graph_size() const { return static_cast<double>(nodes() + joined_lanes_); }
   /// How many steps an analysis is expected to serve, >= 1: a mean that forgets.
