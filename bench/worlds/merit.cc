@@ -24,8 +24,6 @@ bool IsLeftAlone(const Body& body, const Eigen::Vector3d& linear, const Eigen::V
   return LookAtLocked(body, linear.squaredNorm(), angular.squaredNorm(), g).alone;
 }
 
-bool Moves(const Body& body) { return body.inv_mass > 0 || !View(body.inv_inertia).isZero(0); }
-
 /// Rows without the bodies that they do not move: such as have locked axes and are left alone, and
 /// those that nothing moves.
 std::vector<Row> RowsThatPush(const ContactProblem& problem) {
@@ -34,7 +32,7 @@ std::vector<Row> RowsThatPush(const ContactProblem& problem) {
     if (*body == kWorld) return;
     const Body& of = problem.bodies[*body];
     const bool alone = HasLockedAxes(of) && IsLeftAlone(of, View(linear), View(angular));
-    if (alone || !Moves(of)) *body = kWorld;
+    if (alone || !CanMove(of)) *body = kWorld;
   };
   for (Row& row : rows) {
     look(&row.body_a, row.linear_a, row.angular_a);

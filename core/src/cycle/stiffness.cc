@@ -35,12 +35,6 @@ constexpr double kSlowed = 8;
 /// Moments of inertia that are this close have no axes of their own.
 constexpr double kSameMoment = 1e-3;
 
-Eigen::Matrix3d Whole(const GeometricStiffness::Symmetric& half) {
-  Eigen::Matrix3d whole;
-  whole << half.xx, half.yx, half.zx, half.yx, half.yy, half.zy, half.zx, half.zy, half.zz;
-  return whole;
-}
-
 /// No stiffness about an axis is larger.
 double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
 
@@ -78,6 +72,12 @@ Matrix3 WholeOf(const double (*half)[simd::kLanes], size_t lane) {
 }
 
 }  // namespace
+
+Matrix3 GeometricStiffness::Symmetric::Whole() const {
+  Matrix3 whole;
+  View(whole) << xx, yx, zx, yx, yy, zy, zx, zy, zz;
+  return whole;
+}
 
 double ShareOfErp(double strain) { return strain > kSlowed ? std::sqrt(kSlowed / strain) : 1; }
 
@@ -425,7 +425,8 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     const double inv_inertia = View(body.inv_inertia).trace();
     Memory* memory = known_[pulled_[p]];
     const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
-    if (!known && step2 * Most(Whole(sums_[p])) * inv_inertia < kRemember) continue;
+    const Matrix3 sum = sums_[p].Whole();
+    if (!known && step2 * Most(sum) * inv_inertia < kRemember) continue;
     if (!known) {
       if (memory == nullptr) memory = &fresh_.emplace_back();
       // one that is known may have been lowered
@@ -434,7 +435,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
                  .inv_mass = body.inv_mass,
                  .inv_inertia = inv_inertia};
     }
-    View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * Whole(sums_[p]);
+    View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * View(sum);
     memory->seen = true;
   }
   std::erase_if(memories_, [step2](const Memory& memory) {

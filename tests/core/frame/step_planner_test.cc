@@ -111,6 +111,23 @@ TEST(BlockSteps, DoNotLookAtAGraphThatIsKnownToBeTooDear) {
   EXPECT_EQ(round.steps.Guess(0, kIsland), 0) << "it is known";
 }
 
+// What a step on one of several costs changes with those who share its group.
+TEST(BlockSteps, LookAtTheGraphOfAGroupOfSeveralIslands) {
+  constexpr int kIslands[] = {0, 1};
+  IslandMemories memories;
+  const Scene walls = test::Together({test::Wall(1, 12), test::Wall(1, 1)});
+  const Scene other = test::Wall(1, 2);
+  {
+    BetweenRounds before(WithPolicy(StepPolicy::kWeighed), walls, &memories);
+    before.steps.Analyse(0, kIslands);
+    EXPECT_GT(before.steps.PriceAlone(0, 0, 1, 0), 0);
+    memories.EndFrame();
+  }
+  BetweenRounds after(WithPolicy(StepPolicy::kWeighed), walls, &memories, &other);
+  EXPECT_GT(after.steps.PriceAlone(0, 0, 1, 0), 0);
+  EXPECT_EQ(after.steps.Guess(0, kIslands), 0) << "the graph is found again";
+}
+
 TEST(StepPlanner, AlwaysPlansStepsOnAllIslands) {
   BetweenRounds round(WithPolicy(StepPolicy::kAlways));
   EXPECT_EQ(round.Plan(), (All{0, 1}));

@@ -57,11 +57,6 @@ class GeometricStiffness {
     Vector3 Damp(double time_step, const Vector3& spin) const;
   };
 
-  /// A matrix that is its own transpose.
-  struct Symmetric {
-    double xx = 0, yx = 0, zx = 0, yy = 0, zy = 0, zz = 0;
-  };
-
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
   /// Body::inv_inertia, and writes Body::strain of all. Velocities are left to the caller, see
   /// Raised; valid until the next call. @p jointed: by body, 0 for those that no joint holds in
@@ -100,6 +95,11 @@ class GeometricStiffness {
     double inv_mass = 0;       ///< who it is
     double inv_inertia = 0;    ///< sum of its inverse moments, not lowered
     bool seen = false;
+  };
+  /// A matrix that is its own transpose.
+  struct Symmetric {
+    double xx = 0, yx = 0, zx = 0, yy = 0, zy = 0, zz = 0;
+    Matrix3 Whole() const;
   };
   /// A body that may be above the threshold, and what is remembered of it.
   struct Strained {
