@@ -26,7 +26,8 @@ std::vector<SceneChoice> ParseScenes(const std::vector<std::string>& words,
 }
 
 void AddScenes(CLI::App* app, std::vector<std::string>* words) {
-  app->add_option("--scene", *words, "NAME, NAME:SIZE, NAME@FIRST_FRAME; may be repeated")
+  app->add_option("--scene", *words,
+                  "NAME, NAME:SIZE, NAME@FIRST_FRAME, random:SEED; may be repeated")
       ->capture_default_str();
 }
 

@@ -8,6 +8,7 @@
 #include "support/command_line.h"
 #include "support/failure.h"
 #include "support/names.h"
+#include "worlds/random_world.h"
 
 namespace cairn::cli {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 std::vector<const bench::SceneInfo*> FindScenes(std::span<const std::string> words) {
   std::vector<std::string> names;
   for (const bench::SceneInfo& scene : bench::Scenes()) names.emplace_back(scene.name);
+  names.emplace_back(bench::RandomScene::Info().name);
   std::vector<const bench::SceneInfo*> scenes;
   const auto add = [&scenes](const bench::SceneInfo& scene) {
     if (std::find(scenes.begin(), scenes.end(), &scene) == scenes.end()) scenes.push_back(&scene);
@@ -23,7 +25,8 @@ std::vector<const bench::SceneInfo*> FindScenes(std::span<const std::string> wor
     if (word == "all") {
       for (const bench::SceneInfo& scene : bench::Scenes()) add(scene);
     } else {
-      add(bench::Scenes()[FindName("scene", word, names, "'cairn list scenes' shows all")]);
+      const size_t index = FindName("scene", word, names, "'cairn list scenes' shows all");
+      add(index < bench::Scenes().size() ? bench::Scenes()[index] : bench::RandomScene::Info());
     }
   }
   return scenes;

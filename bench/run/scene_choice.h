@@ -26,12 +26,14 @@ struct SceneChoice {
   int FirstFrame(int otherwise) const { return frame >= 0 ? frame : otherwise; }
 };
 
-/// "castle", "pyramid:100" (its size) or "rubble@240" (its first frame).
+/// "castle", "pyramid:100" (its size), "rubble@240" (its first frame) or "random:228" (a world of
+/// `cairn worlds` and its seed).
 /// @param size  of a word without one; empty is the default of the scene
 /// @throws Failure (kUsage) if it is none of these, or there is no such scene or size.
 SceneChoice ParseScene(std::string_view word, std::string_view size = "");
 
-/// Scenes of the names typed, each once; "all" for every one. An empty size is the default of each.
+/// Scenes of the names typed, each once; "all" for every one but `random`. An empty size is the
+/// default of each.
 /// @throws Failure (kUsage) for an unknown name or a size that a scene does not have.
 std::vector<SceneChoice> ParseScenes(std::span<const std::string> words, std::string_view size,
                                      std::uint64_t seed);

@@ -55,10 +55,10 @@ SolverRun::SolverRun(const SceneChoice& scene, const SolverChoice& choice,
       watched_(contestant_->solver()),
       world_(&watched_),
       scene_(scene.make()),
-      defaults_(world_.solver_info()),
       effort_(InitialEffort(choice, options)),
       parts_(choice.entry->parts) {
   scene_->Build(&world_, {.size = scene.size, .seed = scene.seed});
+  defaults_ = world_.solver_info();
   watched_.Watch(world_.bullet());
   result_.label = choice.label;
   result_.counts_iterations = choice.entry->control != Control::kNone;

@@ -4,6 +4,7 @@
 #include "scenes/small_scenes.h"
 #include "support/names.h"
 #include "support/statistics.h"
+#include "worlds/random_world.h"
 
 namespace cairn::cli {
 
@@ -61,6 +62,15 @@ std::vector<SceneChoice> ParseSmallWorlds(std::span<const std::string> words) {
   std::vector<SceneChoice> worlds;
   for (size_t i = 0; i < all.size(); ++i) {
     if (chosen[i]) worlds.push_back(all[i]);
+  }
+  return worlds;
+}
+
+std::vector<SceneChoice> RandomWorlds(std::span<const std::uint64_t> seeds) {
+  const std::string name(bench::RandomScene::Info().name);
+  std::vector<SceneChoice> worlds;
+  for (const std::uint64_t seed : seeds) {
+    worlds.push_back(ParseScenes({&name, 1}, std::to_string(seed), 0).front());
   }
   return worlds;
 }

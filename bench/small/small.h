@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,9 +20,12 @@ namespace cairn::cli {
 /// What `cairn run small` was asked for, checked.
 struct SmallOptions {
   std::vector<SceneChoice> worlds;
+  bool random = false;  ///< These are random worlds, of which there may be hundreds.
+  int slowest = 10;     ///< Of random worlds, so many are shown one by one.
   int frames = 220;
-  int warmup = 20;  ///< The first frames, which are run but do not count.
-  int samples = 8;  ///< States on which velocity errors are measured.
+  int warmup = 20;   ///< The first frames, which are run but do not count.
+  int samples = 8;   ///< States on which velocity errors are measured.
+  bool cold = true;  ///< With caches emptied, too.
   Setup setup;
   ProgressMode progress = ProgressMode::kAuto;
 };
@@ -36,8 +40,9 @@ struct SmallSolver {
 
 /// All solvers in one world; in the order of SmallSolvers().
 struct SmallResult {
-  std::string name;
-  int size = 0, bodies = 0, joints = 0;
+  std::string name;  ///< Of the scene; of a random world its kind.
+  int size = 0;      ///< Of a random world its seed.
+  int bodies = 0, joints = 0;
   double points = kNotMeasured;  ///< Of contact, as in Bullet's run, median.
   std::vector<SmallSolver> solvers;
   std::vector<double> reference_residuals;  ///< What the converged reference left [m/s].
@@ -66,12 +71,22 @@ std::vector<SceneChoice> SmallWorlds();
 /// Those of the names typed, each once; all without names. @throws Failure (kUsage)
 std::vector<SceneChoice> ParseSmallWorlds(std::span<const std::string> words);
 
+/// Random worlds of `cairn worlds`. @pre seeds fit an int
+std::vector<SceneChoice> RandomWorlds(std::span<const std::uint64_t> seeds);
+
 /// Each solver in worlds of its own, stepped in turn: once with nothing but each other beside them,
 /// once with caches emptied before each step. Then errors, see SameStates.
 std::vector<SmallResult> RunSmall(const SmallOptions& options);
 
 /// A line for each world, and geometric means.
 TextTable SmallTable(std::span<const SmallResult> worlds);
+
+/// Of random worlds: a line for each kind with medians and geometric means, ...
+TextTable KindsTable(std::span<const SmallResult> worlds);
+/// ... how many are how much faster or slower than with Bullet, ...
+TextTable SharesTable(std::span<const SmallResult> worlds);
+/// ... and those in which Cairn as it comes takes longest beside Bullet, hot, as in SmallTable().
+TextTable SlowestTable(std::span<const SmallResult> worlds, int count);
 
 /// What the columns are, and where it was measured.
 std::string SmallReadingHelp(const SmallOptions& options, const RunContext& context);

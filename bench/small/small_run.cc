@@ -16,6 +16,7 @@
 #include "support/progress.h"
 #include "support/sample_plan.h"
 #include "support/statistics.h"
+#include "worlds/random_world.h"
 
 namespace cairn::cli {
 namespace {
@@ -73,11 +74,11 @@ class SmallRun {
   SmallResult Run(const SceneChoice& scene) {
     ++world_;
     SmallResult result;
-    result.name = scene.info->name;
+    result.name = NameOf(scene);
     result.size = scene.size;
     result.solvers.resize(SmallSolvers().size());
     Time(scene, nullptr, &SmallSolver::hot, &result);
-    Time(scene, &caches_, &SmallSolver::cold, &result);
+    if (options_.cold) Time(scene, &caches_, &SmallSolver::cold, &result);
     MeasureErrors(scene, &result);
     return result;
   }
@@ -111,8 +112,13 @@ class SmallRun {
     }
   }
 
+  std::string NameOf(const SceneChoice& scene) const {
+    return std::string(options_.random ? bench::KindOf(static_cast<std::uint64_t>(scene.size)).name
+                                       : scene.info->name);
+  }
+
   void Show(const SceneChoice& scene, const char* what, int frame) {
-    progress_->Show(fmt::format("{} ({} of {}), {}: frame {} of {}", scene.info->name, world_,
+    progress_->Show(fmt::format("{} ({} of {}), {}: frame {} of {}", NameOf(scene), world_,
                                 options_.worlds.size(), what, frame, options_.frames));
   }
 

@@ -16,6 +16,7 @@
 #include "run/scene_choice.h"
 #include "solve/problem_choice.h"
 #include "tools/solver_names.h"
+#include "worlds/random_world.h"
 #include "worlds/variants.h"
 
 namespace cairn::cli {
@@ -25,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 Json SceneList(ListForm form) {
   Json json = Json::array();
-  for (const bench::SceneInfo& scene : bench::Scenes()) {
+  const auto add = [&](const bench::SceneInfo& scene) {
     if (form == ListForm::kText) {
       fmt::print("{:<14} {}; size {} ({} to {} {})\n", scene.name, scene.description,
                  scene.default_size, scene.min_size, scene.max_size, scene.size_means);
@@ -36,7 +37,9 @@ Json SceneList(ListForm form) {
                     {"default_size", scene.default_size},
                     {"min_size", scene.min_size},
                     {"max_size", scene.max_size}});
-  }
+  };
+  for (const bench::SceneInfo& scene : bench::Scenes()) add(scene);
+  add(bench::RandomScene::Info());
   return json;
 }
 

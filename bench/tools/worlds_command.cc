@@ -17,6 +17,7 @@
 #include "support/machine/setup.h"
 #include "support/names.h"
 #include "support/output_file.h"
+#include "tools/seeds.h"
 #include "tools/solver_names.h"
 
 namespace cairn::cli {
@@ -62,37 +63,7 @@ std::vector<std::uint64_t> ParseSeeds(const WorldsWords& words) {
                   "cairn worlds needs --seeds FROM:TO or --seed N, as in 'cairn worlds --seeds "
                   "0:100'; 'cairn help worlds' says more");
   }
-  const size_t colon = words.seeds.find(':');
-  if (colon == std::string::npos) {
-    throw Failure(kUsage, fmt::format("--seeds '{}' is no range: write FROM:TO, such as 0:400, "
-                                      "without TO itself",
-                                      words.seeds));
-  }
-  const auto parse = [&](const std::string& text) {
-    return ParseCount("--seeds", text, 0, kMostSeed, "FROM:TO, numbers of worlds");
-  };
-  const long long from = parse(words.seeds.substr(0, colon)),
-                  to = parse(words.seeds.substr(colon + 1));
-  if (from >= to) throw Failure(kUsage, fmt::format("--seeds {}: there are none", words.seeds));
-  std::vector<std::uint64_t> seeds;
-  for (long long seed = from; seed < to; ++seed) seeds.push_back(static_cast<std::uint64_t>(seed));
-  return seeds;
-}
-
-/// Leaves the seeds of the kinds named.
-void KeepKinds(const std::string& typed, std::vector<std::uint64_t>* seeds) {
-  if (typed.empty()) return;
-  std::vector<std::string> names;
-  for (const bench::Kind& kind : bench::Kinds()) names.emplace_back(kind.name);
-  std::vector<const bench::Kind*> kept;
-  for (const std::string& word : Split(typed, ',')) {
-    const size_t index = FindName("kind", word, names, "'cairn worlds --list' shows all");
-    kept.push_back(&bench::Kinds()[index]);
-  }
-  std::erase_if(*seeds, [&](std::uint64_t seed) {
-    return std::find(kept.begin(), kept.end(), &bench::KindOf(seed)) == kept.end();
-  });
-  if (seeds->empty()) throw Failure(kUsage, "none of the seeds is of that kind");
+  return ParseSeedRange(words.seeds, kMostSeed);
 }
 
 std::vector<bench::Variant> ParseVariants(const std::string& typed) {

@@ -105,8 +105,35 @@ class SmallTest(CairnTest):
                                 (["--samples", "-1"], "--samples"),
                                 (["--simd", "mmx"], "simd"),
                                 (["--frmes", "3"], "--frames"),
+                                (["--seeds", "5"], "FROM:TO"),
+                                (["--seeds", "5:5"], "there are none"),
+                                (["--seeds", "0:3000000000"], "--seeds"),
+                                (["--seeds", "0:2000000000"], "at most 10000000"),
+                                (["--seeds", "0:3", "tower"], "leave out 'tower'"),
+                                (["--seeds", "0:3", "--kind", "chian"], "chain"),
+                                (["--kind", "chain"], "add --seeds"),
                                 (["--budget", "2ms"], "cairn run small --help")):
             self.assertIn(expected, self.refused(USAGE, "run", "small", *words))
+
+    def test_random_worlds_are_shown_by_kind_by_size_and_the_slowest(self):
+        random = ["run", "small", "--seeds", "0:90", "--kind", "chain,tree", "--frames", "8", "--samples", "2"]
+        text = self.fine(*random, "--slowest", "3", "--json", self.path("r.json"), "--markdown", self.path("r.md"))
+        kinds, shares, slowest = text.split("\n\n")[:3]
+        self.assertEqual([line.split()[0] for line in kinds.splitlines()[2:]], ["chain", "tree", "all"])
+        self.assertIn("time cold", shares)
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            worlds = json.load(file)["worlds"]
+        ratios = {}
+        for world in worlds:
+            ratios[f"{world['scene']} {world['size']}"] = world["solvers"][2]["hot_of_bullet"]
+        # Kinds come again after each has had its turn.
+        self.assertEqual(len(worlds), 5, ratios)
+        self.assertEqual([" ".join(line.split()[:2]) for line in slowest.splitlines()[2:]],
+                         sorted(ratios, key=ratios.get, reverse=True)[:3])
+        hot = [line.split() for line in shares.splitlines() if line.startswith("time hot")]
+        self.assertEqual(sum(int(line[4]) for line in hot), len(worlds), shares)
+        with open(self.path("r.md"), encoding="utf-8") as file:
+            self.assertRegex(file.read(), r"(?m)^\| tree ")
 
     def test_it_is_not_run_beside_other_scenes(self):
         for words in (["run", "castle", "small"], ["run", "--frames", "10", "small"]):

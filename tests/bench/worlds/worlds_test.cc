@@ -140,6 +140,23 @@ TEST_P(EveryKind, IsTheSameWorldTwice) {
   EXPECT_NE(RunTrial(options, BulletVariants().front()).hash, first.hash);
 }
 
+// With Bullet's default iterations, whatever those of the world are.
+TEST_P(EveryKind, IsAScene) {
+  btSequentialImpulseConstraintSolver solver, other;
+  RandomWorld random({Seed(2)}, &solver);
+  random.world().solver_info().m_numIterations = 10;
+  World world(&other);
+  const std::unique_ptr<Scene> scene = Make(RandomScene::Info());
+  scene->Build(&world, {.size = static_cast<int>(Seed(2))});
+  EXPECT_EQ(world.solver_info().m_numIterations, 10);
+  for (int frame = 0; frame < 60; ++frame) {
+    random.Step();
+    scene->BeforeStep(&world, frame);
+    world.Step();
+  }
+  EXPECT_EQ(StateHash(world), StateHash(random.world()));
+}
+
 TEST_P(EveryKind, IsSmallerOnASmallerScale) {
   btSequentialImpulseConstraintSolver solver;
   size_t whole = 0, small = 0;
