@@ -17,6 +17,9 @@ constexpr double kMostOfRest = 1.5, kMostOfRestWithJoints = 1.0;
 /// And all of it together so many times what sequential impulses row by row do. With more of both
 /// wild chains at 30 Hz take steps that tear them.
 constexpr double kMostOfScalar = 1.15, kMostOfScalarWithJoints = 1.6;
+/// With joints and more than one factorisation: the first one holds them, others make them exact.
+/// Strained bridges under crates need those: they fall to pieces with 1.4 and gape with 1.6.
+constexpr double kMostOfScalarWithMore = 1, kMostOfScalarWithMoreStrained = 2;
 /// By so much more where there was a step of late, since steps that come and go do harm, and where
 /// joints pull. Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
@@ -136,28 +139,32 @@ NoStep StepPlanner::PlanStep(int g, std::span<const int> islands, Planned* plann
 
 NoStep StepPlanner::Weigh(int g, int i) {
   const StepOdds& odds = steps_->odds(i);
+  const bool joints = steps_->HasJoints(i);
   const double largest = Largest((*islands_)[i].seen, UnitOf(frame_->settings));
   const bool near = largest <= kNear * frame_->settings.tolerance;
   // what sweeps have left joints open by for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
   const bool strained = steps_->strain(i) > kStrained || steps_->IsLoaded(i);
-  const bool thrown = steps_->HasJoints(i) && !odds.stepped_most(bodies) &&
+  const bool thrown = joints && !odds.stepped_most(bodies) &&
                       largest > (strained ? kMostThrownStrained : kMostThrown);
   // raised inertia needs a tension that is right in each frame, and sweeps lose it within few
   const bool needed = steps_->strain(i) > BlockSteps::kUnstable;
   const bool pays = needed || odds.pays() || odds.wants_trial();
   if (near || thrown || !pays) return NoStep::kSweepsFaster;
   const int sweeps = frame_->settings.max_sweeps;
-  const double of_scalar = steps_->HasJoints(i) ? kMostOfScalarWithJoints : kMostOfScalar;
-  const double share = steps_->HasJoints(i) ? kMostOfRestWithJoints : kMostOfRest;
+  const double of_scalar = joints ? kMostOfScalarWithJoints : kMostOfScalar;
+  const double share = joints ? kMostOfRestWithJoints : kMostOfRest;
   const double of_rest = share * steps_->RestInWholeLines(i, sweeps);
-  const double left = of_scalar * steps_->ScalarAlone(i, sweeps) - steps_->RestAlone(i, sweeps);
+  const double scalar = steps_->ScalarAlone(i, sweeps), rest = steps_->RestAlone(i, sweeps);
+  const double left = of_scalar * scalar - rest;
+  const double of_more = strained ? kMostOfScalarWithMoreStrained : kMostOfScalarWithMore;
   const double most_price = strained ? of_rest : std::min(of_rest, left);
   const int condensing = !strained && steps_->CondensesJoints(i) ? 1 : 0;
   const auto fits = [&](int factorisations) {
-    const bool more =
-        strained || (odds.stepped_of_late() && (factorisations == 1 || steps_->HasJoints(i)));
-    const double most = (more ? kMoreOnceStepped : 1) * most_price;
+    const bool first = factorisations == 1;
+    const bool more = first && (strained || odds.stepped_of_late());
+    double most = (more ? kMoreOnceStepped : 1) * most_price;
+    if (!first && joints) most = std::min(most, of_more * scalar - rest);
     return steps_->PriceAlone(g, i, factorisations + condensing, most) <= most;
   };
   int most = frame_->settings.k_sm;

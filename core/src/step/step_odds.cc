@@ -26,8 +26,8 @@ constexpr double kBegins = 3, kGoesOn = 2.4;
 constexpr double kLeastRatio = 1, kMostRatio = 30;
 /// So many trials have an equal share in the mean; later ones have that of the last of these.
 constexpr int kEqualTrials = 4;
-/// Frames between two trials.
-constexpr int kLeastPause = 2, kMostPause = 16;
+/// Frames between two trials, while steps pay and while they do not.
+constexpr int kLeastPause = 2, kPause = 16, kMostPause = 32;
 constexpr double kLeastPower = 0.05, kMostPower = 20;
 /// The same of logarithms: what is more is rounding.
 constexpr double kMostCut = 8;
@@ -71,7 +71,7 @@ void StepOdds::LearnGains(double with_step, double alone) {
   ratio_ += (Log(ratio) - ratio_) / trials_;
   pays_ = ratio_ > Log(pays_ && !first ? kGoesOn : kBegins);
   // what is piled up now, or begins to sag, asks for steps soon
-  trial_pause_ = pays_ ? kMostPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
+  trial_pause_ = pays_ ? kPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
   trial_age_ = 0;
 }
 

@@ -104,16 +104,21 @@ TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
   EXPECT_TRUE(odds.pays());
   EXPECT_TRUE(odds.wants_trial());
   int last = 0;
-  for (int trial = 0; trial < 5; ++trial) {
+  for (int trial = 0; trial < 6; ++trial) {
     odds.LearnGains(1, 1);
     EXPECT_FALSE(odds.pays());
     int frames = 0;
     for (; !odds.wants_trial(); ++frames) odds.EndFrame(0);
     EXPECT_GE(frames, last) << "ever later";
-    EXPECT_LE(frames, 16);
+    EXPECT_LE(frames, 32);
     last = frames;
   }
-  EXPECT_EQ(last, 16);
+  EXPECT_EQ(last, 32);
+  for (int trial = 0; trial < 4; ++trial) odds.LearnGains(50, 1);
+  ASSERT_TRUE(odds.pays());
+  int frames = 0;
+  for (; !odds.wants_trial(); ++frames) odds.EndFrame(1);
+  EXPECT_EQ(frames, 16) << "where they pay, they cost more in vain";
 }
 
 TEST(StepOdds, PayWhereSweepsInTheirPlaceGainLess) {
