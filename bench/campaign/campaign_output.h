@@ -16,6 +16,12 @@ namespace cairn::cli {
 std::string WorldTables(std::span<const bench::WorldResult> results,
                         std::span<const bench::Variant> variants, bool bits);
 
+/// What a player sees: by solver the geometric means of ratios to Bullet's run with the iterations
+/// of the world, where that one's are not too small to mean anything, and how many are more than a
+/// tenth smaller or larger.
+std::string BesideTable(std::span<const bench::WorldResult> results,
+                        std::span<const bench::Variant> variants);
+
 /// A line for each world and solver that failed; none without failures.
 std::string FailedWorlds(std::span<const bench::WorldResult> results,
                          std::span<const bench::Variant> variants);

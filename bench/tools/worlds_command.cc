@@ -44,8 +44,10 @@ momentum  in free fall, relative drift above 1e-3 and 3 times Bullet's
 bits      --bits: other bits with other SIMD targets or more threads
 asleep    worlds in which all bodies fell asleep, of those in which they may
 bullet    the iterations of the world; fly: above 60 m/s; restless: with 10, not with 100
-against   --against: geometric means of ratios to before, of worlds with other bits, and in how many
-          it is more than a tenth smaller or larger; late: fastest body of the last quarter
+ratio     geometric mean of ratios to bullet, of runs' largest gap, deepest penetration, fastest
+          body of the last quarter and time, where bullet has more than 1 mm or 1 cm/s; -/+: in how
+          many it is more than a tenth smaller or larger; CPU: collisions and audits included
+against   --against: the same to before, of worlds with other bits
 docs/worlds.md says more. Next: cairn worlds --seed N --report
 )";
 constexpr const char* kWorldsNotes =
@@ -139,7 +141,10 @@ int DoWorlds(const WorldsWords& words, const std::string& command) {
     seed.seed = result.seed;
     fmt::print("{}\n", WorldReport(result, DescribeWorld(seed), options.variants));
   }
-  if (!words.report) fmt::print("{}\n", WorldTables(results, options.variants, words.bits));
+  if (!words.report) {
+    fmt::print("{}\n", WorldTables(results, options.variants, words.bits));
+    fmt::print("{}\n", BesideTable(results, options.variants));
+  }
   fmt::print("{}", FailedWorlds(results, options.variants));
   if (!words.against.empty()) {
     fmt::print("\n{}", AgainstTable(results, options.variants, earlier));

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """cairn worlds as its users meet it: python3 worlds_cli_test.py PATH_OF_CAIRN"""
 import json
+import math
 import os
 import re
+import statistics
 import sys
 import unittest
 
@@ -58,7 +60,8 @@ class WorldsTest(CairnTest):
             for world in result["worlds"]:
                 world["solvers"] = [(s["solver"], s["hash"], s["failures"], s["asleep_s"])
                                     for s in world["solvers"]]
-            return re.sub(r" +[0-9.]+$", "", text, flags=re.MULTILINE), result["worlds"]
+            # Ends of lines are times, and how many of these are smaller or larger.
+            return re.sub(r" +[0-9.]+( +\d+/\d+)?$", "", text, flags=re.MULTILINE), result["worlds"]
         plain = worlds("0:12")
         self.worlds("--seeds", "0:8", "--seconds", "0.2", "--solver", "cairn-sweeps", "--json",
                     self.path("old.json"))
@@ -79,6 +82,22 @@ class WorldsTest(CairnTest):
         self.assertIn("no result of cairn worlds", refusal("--seeds", "0:2"))
         os.remove(self.path("old.json"))
         self.assertIn("cannot be read", refusal("--seeds", "0:2"))
+
+    def test_gaps_are_compared_with_those_of_bullet(self):
+        text = self.worlds("--seeds", "0:40", "--kind", "chain,net,truss", "--seconds", "0.3", "--solver", "cairn",
+                           "--json", self.path("w.json"))
+        with open(self.path("w.json"), encoding="utf-8") as file:
+            worlds = [{solver["solver"]: solver["gap_m"] for solver in world["solvers"]}
+                      for world in json.load(file)["worlds"]]
+        # What is below 1 mm with Bullet is left out; with others, what is below 0.01 mm counts as that.
+        ratios = {name: [max(world[name], 1e-5) / world["bullet"] for world in worlds if world["bullet"] > 1e-3]
+                  for name in ("bullet-10", "bullet-100", "cairn")}
+        self.assertEqual(len(ratios["cairn"]), 3)
+        for name, of in ratios.items():
+            said = re.search(rf"(?m)^{name} +([0-9.]+) +(\d)/(\d) ", text[text.index("of bullet's"):])
+            self.assertAlmostEqual(float(said[1]), statistics.geometric_mean(of), delta=6e-4)
+            self.assertEqual(int(said[2]), sum(math.log(ratio) < -0.1 for ratio in of))
+            self.assertEqual(int(said[3]), sum(math.log(ratio) > 0.1 for ratio in of))
 
     def test_runs_are_compared_with_earlier_ones(self):
         short = ("--seconds", "0.3", "--solver", "cairn")
