@@ -121,6 +121,8 @@ class SmallTest(CairnTest):
         kinds, shares, slowest = text.split("\n\n")[:3]
         self.assertEqual([line.split()[0] for line in kinds.splitlines()[2:]], ["chain", "tree", "all"])
         self.assertIn("time cold", shares)
+        self.assertIn("with their seeds", text)
+        self.assertNotIn("time cold", self.fine(*random, "--hot"))
         with open(self.path("r.json"), encoding="utf-8") as file:
             worlds = json.load(file)["worlds"]
         ratios = {}
