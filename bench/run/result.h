@@ -76,6 +76,7 @@ struct SceneResult {
   std::string name, description;
   int size = 0;
   std::uint64_t seed = 0;
+  int friction_directions = 2;  ///< At each contact, as asked for.
   int bodies = 0, joints = 0;
   double mass_ratio = kNotMeasured;  ///< Of the heaviest body and the lightest.
   int observed_every = 1;            ///< The residual was measured in every k-th frame.

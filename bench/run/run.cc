@@ -38,6 +38,7 @@ class SideBySide {
     result_.name = scene.info->name;
     result_.description = scene.info->description;
     result_.size = scene.size;
+    result_.friction_directions = scene.friction_directions;
     result_.seed = options.seed;
     result_.bodies = static_cast<int>(runs_.front()->world().dynamic_bodies().size());
     result_.joints = static_cast<int>(runs_.front()->world().joints().size());

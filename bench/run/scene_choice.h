@@ -21,8 +21,12 @@ struct SceneChoice {
   std::function<std::unique_ptr<bench::Scene>()> make;
   int size = 0;
   std::uint64_t seed = 0;
-  int frame = -1;  ///< The first that is looked at, where its word names one.
+  int friction_directions = 2;  ///< 1 or 2, at each contact.
+  int frame = -1;               ///< The first that is looked at, where its word names one.
 
+  bench::SceneOptions options() const {
+    return {.size = size, .seed = seed, .friction_directions = friction_directions};
+  }
   int FirstFrame(int otherwise) const { return frame >= 0 ? frame : otherwise; }
 };
 

@@ -9,7 +9,7 @@ namespace cairn::cli {
 
 BuiltScene::BuiltScene(const SceneChoice& choice, btConstraintSolver* solver)
     : world_(solver), choice_(choice), scene_(choice.make()) {
-  scene_->Build(&world_, {.size = choice.size, .seed = choice.seed});
+  scene_->Build(&world_, choice.options());
 }
 
 void BuiltScene::Step(int parts) {

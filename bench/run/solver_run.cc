@@ -57,7 +57,7 @@ SolverRun::SolverRun(const SceneChoice& scene, const SolverChoice& choice,
       scene_(scene.make()),
       effort_(InitialEffort(choice, options)),
       parts_(choice.entry->parts) {
-  scene_->Build(&world_, {.size = scene.size, .seed = scene.seed});
+  scene_->Build(&world_, scene.options());
   defaults_ = world_.solver_info();
   watched_.Watch(world_.bullet());
   result_.label = choice.label;

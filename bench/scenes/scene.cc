@@ -37,6 +37,7 @@ void Scene::Build(World* world, const SceneOptions& options) {
                             " is not within [" + std::to_string(info_.min_size) + ", " +
                             std::to_string(info_.max_size) + "]");
   }
+  world->SetFrictionDirections(options.friction_directions);
   AddBodies(world, size);
   if (options.seed != 0) Displace(world, options.seed);
   for (Watched& watched : watched_) watched.built_at = watched.Height();

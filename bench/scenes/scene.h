@@ -18,6 +18,8 @@ struct SceneOptions {
   /// 0: as designed. Otherwise every dynamic body is displaced by up to 1e-4 m, the same way each
   /// time for the same seed.
   std::uint64_t seed = 0;
+  /// Of friction at a contact, 1 or 2; random worlds draw their own.
+  int friction_directions = 2;
 };
 
 /// What is true of a scene right after it was built with seed 0.

@@ -19,7 +19,7 @@ World::World(btConstraintSolver* solver, btScalar time_step) : time_step_(time_s
   dynamics_ = std::make_unique<btDiscreteDynamicsWorld>(&dispatcher_, &broadphase_, solver,
                                                         &configuration_);
   dynamics_->setGravity(btVector3(0, kGravity, 0));
-  solver_info().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  SetFrictionDirections(2);
 }
 
 World::~World() {
@@ -31,6 +31,12 @@ World::~World() {
 void World::Step(int parts) {
   // 0 substeps: Bullet takes the time as one step instead of saving it up.
   for (int i = 0; i < parts; ++i) dynamics_->stepSimulation(time_step_ / btScalar(parts), 0);
+}
+
+void World::SetFrictionDirections(int directions) {
+  int& mode = solver_info().m_solverMode;
+  mode = directions == 2 ? mode | SOLVER_USE_2_FRICTION_DIRECTIONS
+                         : mode & ~SOLVER_USE_2_FRICTION_DIRECTIONS;
 }
 
 void World::LetSleep() {

@@ -50,6 +50,8 @@ class World {
   void Step(int parts = 1);
   /// Of the steps from now on, > 0 [s].
   void SetTimeStep(btScalar time_step) { time_step_ = time_step; }
+  /// 1, as Bullet's default, or 2, as here: whether SOLVER_USE_2_FRICTION_DIRECTIONS is set.
+  void SetFrictionDirections(int directions);
   /// Bodies, those that are there and those that come, may fall asleep as Bullet's defaults say.
   void LetSleep();
 

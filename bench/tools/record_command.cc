@@ -92,7 +92,7 @@ Command AddRecordCommand(CLI::App* app) {
   add("--solver", &words->solver, "Solver that makes the frames; default cairn", "S");
   add("--budget", &words->effort.budget, "What a frame may cost, as for cairn run", "B");
   add("--iterations", &words->effort.iterations, "Iterations of the solver; default 10", "N");
-  AddSizeAndSeed(record, &words->scenes);
+  AddSceneOptions(record, &words->scenes);
   record->add_flag("--force", words->force, "Write over recordings that are there already");
   AddOutputWords(record, &words->output);
   return {record, [words](const std::string&) { return DoRecord(*words); }};

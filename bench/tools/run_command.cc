@@ -132,7 +132,7 @@ Command AddRunCommand(CLI::App* app) {
   add("--iterations", &words->effort.iterations,
       "Iterations of solvers, or fit (below); default 10", "N");
   add("--frames", &words->frames, "Frames of 1/60 s; default 300", "N");
-  AddSizeAndSeed(run, &words->scenes);
+  AddSceneOptions(run, &words->scenes);
   add("--samples", &words->samples,
       "Frames at which the velocity error is measured, at most a quarter of all; default 8", "N");
   add("--warmup", &words->warmup,

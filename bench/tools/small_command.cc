@@ -23,7 +23,7 @@ namespace {
 /// What was typed behind the options of `cairn run small`.
 struct SmallWords {
   std::vector<std::string> worlds;
-  std::string seeds, kinds, slowest = "10";
+  std::string seeds, kinds, slowest = "10", directions = "2";
   std::string frames = "220", warmup, samples = "8";
   bool hot = false;
   SetupWords setup;
@@ -64,6 +64,7 @@ std::vector<SceneChoice> ChooseWorlds(const SmallWords& words) {
 SmallOptions Check(const SmallWords& words) {
   SmallOptions options;
   options.worlds = ChooseWorlds(words);
+  TakeDirections(words.directions, &options.worlds);
   options.random = !words.seeds.empty();
   options.slowest =
       ParseInt("--slowest", words.slowest, 0, 1'000'000, "worlds that are shown one by one");
@@ -127,6 +128,7 @@ Command AddSmallCommand(CLI::App* run) {
       "Frames, the first ones, that are run and do not count; default 20, at most a quarter", "N");
   add("--samples", &words->samples,
       "Frames at which the velocity error is measured, at most a quarter of all; default 8", "N");
+  AddDirections(small, &words->directions);
   small->add_flag("--hot", words->hot, "Leaves out cold caches, which take the longest to measure");
   AddSetup(small, &words->setup);
   add("--json", &words->json, "Write everything that was measured", "FILE");

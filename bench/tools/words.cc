@@ -17,16 +17,29 @@ CLI::Option* AddScenes(CLI::App* app, const char* what, SceneWords* words) {
       ->type_name("SCENE");
 }
 
-void AddSizeAndSeed(CLI::App* app, SceneWords* words) {
+void AddSceneOptions(CLI::App* app, SceneWords* words) {
   AddText(app, "--size", &words->size, "Size of the scene; see cairn list scenes", "N");
   AddText(app, "--seed", &words->seed,
           "Displaces bodies by up to 0.1 mm, differently for each seed; default 0: none", "N");
+  AddDirections(app, &words->directions);
+}
+
+void AddDirections(CLI::App* app, std::string* directions) {
+  AddText(app, "--directions", directions,
+          "Of friction at a contact: 1, as Bullet comes, or 2; default 2. Random worlds draw it",
+          "N");
+}
+
+void TakeDirections(const std::string& directions, std::vector<SceneChoice>* scenes) {
+  const int count = ParseInt("--directions", directions, 1, 2, "directions of friction");
+  for (SceneChoice& scene : *scenes) scene.friction_directions = count;
 }
 
 void Parse(const SceneWords& scenes, const EffortWords& effort, RunOptions* options) {
   options->seed = ParseCount("--seed", scenes.seed, 0, 1'000'000'000,
                              "0: the scene as designed, else displaced by up to 0.1 mm");
   options->scenes = ParseScenes(scenes.scenes, scenes.size, options->seed);
+  TakeDirections(scenes.directions, &options->scenes);
   if (!effort.budget.empty()) {
     const FrameBudget budget = ParseBudget("--budget", effort.budget);
     options->budget = budget.time;

@@ -17,14 +17,19 @@ namespace cairn::cli {
 // Options that several commands have: what was typed behind them, as it stands before it is
 // checked.
 
-/// Which scenes: SCENE..., --size, --seed.
+/// Which scenes: SCENE..., --size, --seed, --directions.
 struct SceneWords {
   std::vector<std::string> scenes;
-  std::string size, seed = "0";
+  std::string size, seed = "0", directions = "2";
 };
 /// @param what  is done to the scenes: "run"
 CLI::Option* AddScenes(CLI::App* app, const char* what, SceneWords* words);
-void AddSizeAndSeed(CLI::App* app, SceneWords* words);
+/// Adds --size, --seed and --directions.
+void AddSceneOptions(CLI::App* app, SceneWords* words);
+/// --directions alone.
+void AddDirections(CLI::App* app, std::string* directions);
+/// @throws Failure (kUsage)
+void TakeDirections(const std::string& directions, std::vector<SceneChoice>* scenes);
 
 /// What a frame may cost: --budget, --iterations.
 struct EffortWords {

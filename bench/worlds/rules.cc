@@ -53,11 +53,7 @@ void Apply(const Rules& rules, World* world) {
   btContactSolverInfo& info = world->solver_info();
   info.m_numIterations = rules.iterations;
   info.m_splitImpulse = rules.split_impulse ? 1 : 0;
-  if (rules.friction_directions == 2) {
-    info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-  } else {
-    info.m_solverMode &= ~SOLVER_USE_2_FRICTION_DIRECTIONS;
-  }
+  world->SetFrictionDirections(rules.friction_directions);
   world->bullet()->setGravity(rules.gravity);
   world->SetTimeStep(static_cast<btScalar>(1 / rules.rate));
   if (rules.sleeping) world->LetSleep();

@@ -55,7 +55,9 @@ StandRun RunSeed(const StandOptions& options, const TensionSolver& solver, std::
   if (options.slop) info.m_linearSlop = static_cast<btScalar>(*options.slop);
   if (options.erp) info.m_erp2 = static_cast<btScalar>(*options.erp);
   const std::unique_ptr<bench::Scene> scene = options.scene.make();
-  scene->Build(&world, {.size = options.scene.size, .seed = seed});
+  bench::SceneOptions of_seed = options.scene.options();
+  of_seed.seed = seed;
+  scene->Build(&world, of_seed);
   StandRun run{.seed = seed};
   const double start = bench::TotalEnergy(world);
   const std::vector<btVector3> began = Places(world);

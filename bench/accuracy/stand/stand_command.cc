@@ -18,11 +18,13 @@ namespace {
 struct StandChoice {
   std::string scene = "heavy-top", solvers = "cairn";
   StandOptions options;
+  int directions = 2;
 };
 
 int RunStandCommand(const Common& common, const StandChoice& choice, const std::string& typed) {
   StandOptions options = choice.options;
   options.scene = cli::ParseScene(choice.scene);
+  options.scene.friction_directions = choice.directions;
   const std::vector<TensionSolver> solvers = ParseTensionSolvers(choice.solvers);
   if (!common.json.empty()) cli::CheckWritable(common.json);
   const cli::RunContext context = cli::DescribeContext(typed);
@@ -66,6 +68,11 @@ cli::Command AddStandCommand(CLI::App* app) {
       ->check(CLI::Range(0.0, 1.0));
   stand->add_option("--erp", choice->options.erp, "m_erp2, of contacts; Bullet has 0.2")
       ->check(CLI::Range(0.0, 1.0));
+  stand
+      ->add_option("--directions", choice->directions,
+                   "Of friction at a contact: 1, as Bullet comes, or 2")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
   cli::AddText(stand, "--json", &common->json, "Write all figures to this file", "FILE");
   cli::AddText(stand, "--progress", &common->words.progress,
                "Progress on stderr: auto (if a terminal), always, never", "WHEN");

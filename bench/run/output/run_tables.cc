@@ -110,8 +110,9 @@ TextTable FactsTable(const SceneResult& scene, const RunResult& run) {
 }
 
 std::string SceneHeading(const SceneResult& scene, const RunResult& run) {
-  return fmt::format("{}, size {}, seed {}: {} bodies, {} joints, {} frames of 1/60 s, {}",
-                     scene.name, scene.size, scene.seed, scene.bodies, scene.joints, run.frames,
+  return fmt::format("{}, size {}, seed {}: {} bodies, {} joints, {}{} frames of 1/60 s, {}",
+                     scene.name, scene.size, scene.seed, scene.bodies, scene.joints,
+                     scene.friction_directions == 1 ? "friction in 1 direction, " : "", run.frames,
                      run.budget || run.units
                          ? fmt::format("budget {} a frame", FormatBudget({run.budget, run.units}))
                          : std::string("no budget"));
