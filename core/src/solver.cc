@@ -213,11 +213,14 @@ bool Solver::Impl::SolveRows(const ContactProblem& problem, BudgetMeter* meter, 
 
   // results back, all or none
   meter->Begin();
-  bool fits = packer.HasFiniteVelocities();
+  report->bad_body = packer.FirstNotFinite();
+  bool fits = report->bad_body < 0;
   for (size_t i = 0; i < islands.size(); ++i) {
     IslandReport& island = report->islands.emplace_back(cycles[i].Finish());
     island.first_body = islands[i].bodies.empty() ? -1 : islands[i].bodies.front();
-    fits = fits && IsResult(packer, islands[i], cycles[i].state(), island.residual, out.floats);
+    if (!fits) continue;
+    fits = IsResult(packer, islands[i], cycles[i].state(), island.residual, out.floats);
+    if (!fits) report->bad_body = island.first_body;
   }
   if (!fits) return false;
   report->island_of.assign(problem.bodies.size(), -1);
@@ -281,6 +284,10 @@ void Solver::Impl::Solve(const ContactProblem& problem, const Impulses& impulses
                            "problem.bodies.size()"};
   }
   if (report->bad_setting.name != nullptr) report->status = Status::kWrongSize;
+  if (report->ok() && !(problem.time_step >= 0 && problem.time_step < kInfinity)) {
+    report->status = Status::kNotFinite;
+    report->bad_setting = {"problem.time_step", problem.time_step, "at least 0, and finite"};
+  }
   if (!report->ok()) return;
   const Attempt attempt(this);
   threads.Follow(settings.threads, settings.executor);
@@ -308,10 +315,6 @@ void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& i
   const Clock* const clock = settings.tuning.clock;
   const auto begin = ReadClock(clock);
   CopyJudgement(Validate(problem, impulses), report);
-  if (report->ok() && !(problem.time_step >= 0 && problem.time_step < kInfinity)) {
-    report->status = Status::kNotFinite;
-    report->bad_setting = {"problem.time_step", problem.time_step, "at least 0, and finite"};
-  }
   if (!report->ok()) return;
   const Budget whole = settings.budget;
   // of how many solves that are left, this is the first
@@ -325,6 +328,7 @@ void Solver::Impl::SolveInParts(const ContactProblem& problem, const Impulses& i
     // what is wrong came of numbers that were sound: they did not fit
     report->islands.clear();
     report->status = Status::kOverflow;
+    report->bad_body = part_report.bad_body;
     report->stop = StopReason::kBrokeDown;
   };
   for (substeps.Begin(problem, impulses, settings.substeps); !substeps.done(); substeps.Advance()) {

@@ -328,6 +328,23 @@ static void TakesThreadsOfItsHost(void) {
   for (int i = 0; i < pool.count; ++i) thrd_join(pool.threads[i], NULL);
   CHECK(memcmp(velocities[0], velocities[1], sizeof velocities[0]) == 0);
   CHECK(memcmp(impulses[0], impulses[1], sizeof impulses[0]) == 0);
+
+  /* jobs that are set later are asked, also while those of before never come */
+  Pool never = {.count = 64}, later = {.count = 0};
+  CairnSettings settings = cairnDefaultSettings();
+  settings.threads = 2;
+  settings.jobs.submit = Submit;
+  settings.jobs.context = &never;
+  CairnSolver* solver = NULL;
+  CHECK(cairnCreateSolver(cairnLayout(), &settings, &solver) == cairnOk);
+  const CairnSolution solution = {impulses[0], NULL, NULL, velocities[0]};
+  CHECK(cairnSolve(solver, &problem, &solution, NULL) == cairnOk);
+  settings.jobs.context = &later;
+  CHECK(cairnSetSettings(solver, &settings) == cairnOk);
+  CHECK(cairnSolve(solver, &problem, &solution, NULL) == cairnOk);
+  CHECK(later.count > 0);
+  cairnDestroySolver(solver);
+  for (int i = 0; i < later.count; ++i) thrd_join(later.threads[i], NULL);
 }
 
 static void RecordsAndSolvesAgain(const char* folder) {

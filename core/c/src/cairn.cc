@@ -14,13 +14,39 @@
 
 using namespace cairn;
 
+namespace {
+
+/// The job system of a solver.
+class Jobs {
+ public:
+  /// nullptr where there is none. Others lie elsewhere than those of before, for which a solver
+  /// would take them.
+  Executor* Take(const CairnJobs& jobs) {
+    if (jobs.submit == nullptr) return nullptr;
+    std::optional<c::CJobs>& now = jobs_[now_];
+    const bool same =
+        now && now->jobs().submit == jobs.submit && now->jobs().context == jobs.context;
+    if (!same) {
+      now_ = 1 - now_;
+      jobs_[now_].emplace(jobs);
+    }
+    return &*jobs_[now_];
+  }
+
+ private:
+  std::optional<c::CJobs> jobs_[2];
+  int now_ = 0;
+};
+
+}  // namespace
+
 struct CairnSolver : detail::Placed {
   explicit CairnSolver(detail::Heap::Owner owner)
       : heap(std::move(owner)), solver(Settings{}, heap.get()) {}
 
   detail::Heap::Owner heap;  ///< all of this lies in it, and itself
   Solver solver;
-  std::optional<c::CJobs> jobs;
+  Jobs jobs;
   Recorder recorder{"cairn.h"};
   // memory of a step, used again
   Array<Body> bodies;
@@ -58,10 +84,8 @@ BadSetting FindBad(const CairnSettings& settings) {
 
 CairnStatus Accept(const CairnSettings& settings, CairnSolver* solver) {
   if (FindBad(settings).name != nullptr) return cairnBadSettings;
-  solver->jobs.reset();
-  if (settings.jobs.submit != nullptr) solver->jobs.emplace(settings.jobs);
   solver->solver.settings() = c::ToSettings(settings);
-  solver->solver.settings().executor = solver->jobs ? &*solver->jobs : nullptr;
+  solver->solver.settings().executor = solver->jobs.Take(settings.jobs);
   return cairnOk;
 }
 

@@ -39,7 +39,10 @@ int QuietBodies::LookAt(const ContactProblem& problem, std::span<const Velocity>
   for (int i = first; i < first + count; ++i) {
     const int at = island_of[i];
     Count& known = counts_[i];
-    if (at < 0 || known.id != problem.bodies[i].id) known = {.id = problem.bodies[i].id};
+    const Body& body = problem.bodies[i];
+    if (at < 0 || known.id != body.id || known.inv_mass != body.inv_mass) {
+      known = {.id = body.id, .inv_mass = body.inv_mass};
+    }
     if (at < 0) continue;
     const Velocity end = EndOf(problem, velocities, i);
     const Velocity& mean = moves_on ? means[i] : end;

@@ -34,6 +34,7 @@ class QuietBodies {
  private:
   struct Count {
     std::uint64_t id = 0;
+    double inv_mass = 0;  ///< tells bodies apart that have no names
     int solves = 0;
   };
 

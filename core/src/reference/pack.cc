@@ -108,9 +108,10 @@ Velocity Packer::VelocityOf(int body, const Vector6& u) const {
                   Eigen::Map<const Eigen::Vector3d>(u.data() + 3));
 }
 
-bool Packer::HasFiniteVelocities() const {
-  return std::all_of(bodies_.begin(), bodies_.end(),
-                     [](const WhitenedBody& body) { return IsFinite(body.free); });
+int Packer::FirstNotFinite() const {
+  const auto bad = std::find_if_not(bodies_.begin(), bodies_.end(),
+                                    [](const WhitenedBody& body) { return IsFinite(body.free); });
+  return bad == bodies_.end() ? -1 : static_cast<int>(bad - bodies_.begin());
 }
 
 bool Packer::HasFiniteVelocities(const Island& island, const IslandState& state) const {

@@ -104,8 +104,9 @@ class Packer {
   static IslandState Start(const PackedIsland& packed, const Island& island,
                            std::span<const double> impulses);
 
+  /// The first body whose velocity without constraints is not finite, -1 if there is none.
+  int FirstNotFinite() const;
   /// Whether those below are finite.
-  bool HasFiniteVelocities() const;
   bool HasFiniteVelocities(const Island& island, const IslandState& state) const;
   /// Velocity of every body without constraints.
   void WriteFreeVelocities(std::span<Velocity> velocities) const;

@@ -97,9 +97,11 @@ void Nncg::FindEnds(const Plan& plan) {
 }
 
 void Nncg::ForgetWhereRowsEnd(int group, int sweeps) {
-  for (const End& end : ends_) {
-    if (end.group == group && end.sweeps == sweeps) Forget(end.island);
-  }
+  const auto [first, last] = std::equal_range(
+      ends_.begin(), ends_.end(), End{group, sweeps, 0}, [](const End& a, const End& b) {
+        return std::pair(a.group, a.sweeps) < std::pair(b.group, b.sweeps);
+      });
+  for (auto end = first; end != last; ++end) Forget(end->island);
 }
 
 void Nncg::Forget(int island) {

@@ -127,6 +127,17 @@ TEST(Sleep, CountsSolvesThatLeftAllBodiesOfAnIslandQuiet) {
   EXPECT_EQ(world.island(0).quiet, 1);
 }
 
+TEST(Sleep, ABodyOfAnotherMassIsAnotherBodyWhereNoneHasAName) {
+  Gliders world;
+  world.Add({}, 0);
+  world.Join(0, kWorld);
+  for (int n = 0; n < 3; ++n) world.Solve();
+  EXPECT_EQ(world.island(0).quiet, 3);
+  world.bodies[0].inv_mass = 2;
+  world.Solve();
+  EXPECT_EQ(world.island(0).quiet, 1);
+}
+
 TEST(Sleep, WhatIsJoinedIsAsQuietAsTheLatestOfItsBodies) {
   Gliders world;
   world.Add({}, 1);

@@ -160,6 +160,7 @@ TEST(ExtremeNumbers, AreSolvedOrRefusedAndNeverHalfWritten) {
         if (!solved.report.ok()) {
           EXPECT_EQ(solved.report.status, Status::kOverflow);
           EXPECT_EQ(solved.report.stop, StopReason::kBrokeDown);
+          EXPECT_EQ(solved.report.bad_body, 0);
           EXPECT_EQ(solved.x[0], 0);
           EXPECT_TRUE(View(solved.velocities[0].linear).isZero(0));
           continue;

@@ -288,6 +288,20 @@ TEST(Validate, RefusesAnEmptyProblemAndResultsOfTheWrongSize) {
   EXPECT_EQ(Measure(scene.problem(), std::vector<double>(3)).status, Status::kWrongSize);
 }
 
+TEST(Validate, RefusesATimeStepThatNoneCanMake) {
+  const Scene scene = GoodScene();
+  for (const double step : {-1.0, kNan, kInfinity}) {
+    std::vector<double> impulses(5, 0.25);
+    std::vector<Velocity> velocities(3);
+    ContactProblem problem = scene.problem();
+    problem.time_step = step;
+    const Report report = Solver().Solve(problem, impulses, velocities);
+    EXPECT_EQ(report.status, Status::kNotFinite);
+    EXPECT_STREQ(report.bad_setting.name, "problem.time_step");
+    EXPECT_EQ(impulses[0], 0.25);
+  }
+}
+
 TEST(Validate, RefusesEverySettingOutOfItsRange) {
   const auto refuse = [](const std::string& name, const std::function<void(Settings*)>& spoil) {
     SCOPED_TRACE(name);
