@@ -15,6 +15,7 @@
 #include "cairn/solver.h"
 #include "fast_group.h"
 #include "gravity.h"
+#include "group/odd_islands.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -99,9 +100,13 @@ Settings ForGroup(const Settings& user, const Options& options, const btContactS
 struct ConstraintSolver::Impl {
   Settings settings;
   Options options;
-  Solver solver;
+  Solver solver, solver_of_rows;  ///< Mode::kFast, and Mode::kReference
   GroupRows rows;
   FastGroup fast;
+  OddIslands islands;
+  /// What was wrong where Mode::kReference could solve it all the same, or with a part of the group
+  /// that was left to it.
+  std::string refused;
   std::vector<double> shown_impulses;
   Report report;
   bool fell_back = false, solved_fast = false;
@@ -113,6 +118,11 @@ struct ConstraintSolver::Impl {
   std::vector<btPersistentManifold*> manifolds;
   std::vector<btTypedConstraint*> constraints;
   btDispatcher* dispatcher = nullptr;
+  void ForgetGroups() {
+    bodies.clear();
+    manifolds.clear();
+    constraints.clear();
+  }
 
   /// What of a Budget::Time is not for the iteration.
   nanoseconds start{0};
@@ -127,6 +137,9 @@ struct ConstraintSolver::Impl {
 
   /// False, and the report says why, if a setting is out of its range.
   bool AcceptSettings();
+  /// What OddIslands cut off, by Mode::kReference.
+  void SolveOdd(ConstraintSolver* self, const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
+                btDispatcher* of_world);
   std::string told;  ///< the last warning
 
   /// Takes a copy of the problem if it is to be recorded, on nobody's budget. Of a group that is
@@ -184,7 +197,7 @@ SubstepTimes ConstraintSolver::times() const { return impl_->times; }
 bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
 
 std::string ConstraintSolver::complaint() const {
-  return impl_->report.ok() ? std::string() : Describe(impl_->report);
+  return impl_->report.ok() ? impl_->refused : Describe(impl_->report);
 }
 
 void ConstraintSolver::Warn(btIDebugDraw* debug_drawer) {
@@ -217,9 +230,7 @@ const RecordedFiles& ConstraintSolver::recorded() const {
 
 void ConstraintSolver::prepareSolve(int, int) {
   impl_->collecting = true;
-  impl_->bodies.clear();
-  impl_->manifolds.clear();
-  impl_->constraints.clear();
+  impl_->ForgetGroups();
 }
 
 btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies,
@@ -236,6 +247,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   }
   impl_->start = impl_->Now();
   impl_->fell_back = impl_->solved_fast = impl_->recorded = false;
+  impl_->refused.clear();
   impl_->times = {};
   bool solved = false;
   if (impl_->options.mode == Mode::kFast) {
@@ -243,8 +255,15 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
                       {manifolds, static_cast<size_t>(num_manifolds)},
                       {constraints, static_cast<size_t>(num_constraints)},
                       UnitsFor(impl_->settings, {bodies, static_cast<size_t>(num_bodies)})};
-    solved = SolveFast(group, info);
-    impl_->fell_back = !solved;
+    const bool whole = AllOfKnownType(group.joints);
+    if (whole) {
+      solved = SolveFast(group, info);
+    } else if (impl_->islands.Cut(group)) {
+      solved = SolveFast(impl_->islands.others(), info);
+      if (solved) impl_->SolveOdd(this, info, debug_drawer, dispatcher);
+    }
+    impl_->fell_back = !solved || !whole;
+    if (!solved) impl_->refused = complaint();
   }
   btScalar result = 0;
   if (!solved) {
@@ -258,25 +277,44 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   return result;
 }
 
+void ConstraintSolver::Impl::SolveOdd(ConstraintSolver* self, const btContactSolverInfo& info,
+                                      btIDebugDraw* debug_drawer, btDispatcher* of_world) {
+  const Group odd = islands.odd();
+  // the report is that of all others
+  Report of_others = report;
+  std::vector<btCollisionObject*> some(odd.bodies.begin(), odd.bodies.end());
+  std::vector<btPersistentManifold*> touching(odd.manifolds.begin(), odd.manifolds.end());
+  std::vector<btTypedConstraint*> joints(odd.joints.begin(), odd.joints.end());
+  const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
+  self->btSequentialImpulseConstraintSolver::solveGroup(some.data(), size(some), touching.data(),
+                                                        size(touching), joints.data(), size(joints),
+                                                        info, debug_drawer, of_world);
+  if (!report.ok()) refused = Describe(report);
+  report = std::move(of_others);
+}
+
 void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
-  impl_->collecting = false;
+  if (!std::exchange(impl_->collecting, false)) return;
   const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
   solveGroup(impl_->bodies.data(), size(impl_->bodies), impl_->manifolds.data(),
              size(impl_->manifolds), impl_->constraints.data(), size(impl_->constraints), info,
              debug_drawer, impl_->dispatcher);
+  impl_->ForgetGroups();
 }
 
 void ConstraintSolver::reset() {
   btSequentialImpulseConstraintSolver::reset();
   impl_->solver.Reset();
+  impl_->solver_of_rows.Reset();
   impl_->fast.Forget();
   impl_->write_time = impl_->finish_time = {};
   impl_->report = {};
+  impl_->refused.clear();
   impl_->fell_back = false;
 }
 
 bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
-  if (!AllOfKnownType(group.joints) || !impl_->AcceptSettings()) return false;
+  if (!impl_->AcceptSettings()) return false;
   FastGroup& fast = impl_->fast;
   detail::Threads& threads = impl_->solver.threads();
   threads.Follow(impl_->settings.threads, impl_->settings.executor);
@@ -288,6 +326,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
     const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
     Options options = impl_->options;
     options.geometric_stiffness = impl_->Stiffens();
+    options.two_friction_directions &= !SweepsAsBullet(impl_->settings);
     // what is swept in double precision is not rounded to floats before
     if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0, 1)) == Path::kReference)
       options.contacts = ContactForm::kRows;
@@ -374,9 +413,9 @@ btScalar ConstraintSolver::solveGroupCacheFriendlyIterations(
   const bool recording =
       impl_->BeginRecording(impl_->rows.problem(), {.rows = impl_->rows.impulses()});
   impl_->SetTimeLeft(&settings.budget);
-  impl_->solver.settings() = settings;
-  impl_->solver.Solve(impl_->rows.problem(), impl_->rows.impulses(), impl_->rows.velocities(),
-                      &impl_->report);
+  impl_->solver_of_rows.settings() = settings;
+  impl_->solver_of_rows.Solve(impl_->rows.problem(), impl_->rows.impulses(),
+                              impl_->rows.velocities(), &impl_->report);
   if (impl_->report.ok() && !impl_->rows.FitsBullet()) impl_->report.status = Status::kOverflow;
   if (recording) impl_->recorder->End(settings, impl_->report);
   if (!impl_->report.ok()) {

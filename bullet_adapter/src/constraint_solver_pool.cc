@@ -2,9 +2,10 @@
 #include "cairn/bullet/constraint_solver_pool.h"
 
 #include <mutex>
+#include <utility>
 #include <vector>
 
-#include "group_order.h"
+#include "group/group_order.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
@@ -26,6 +27,13 @@ struct ConstraintSolverPool::Impl {
   std::vector<btTypedConstraint*> joints;
   btDispatcher* dispatcher = nullptr;
   GroupOrder order;
+
+  void ForgetGroups() {
+    bodies.clear();
+    manifolds.clear();
+    joints.clear();
+    dispatcher = nullptr;
+  }
 };
 
 ConstraintSolverPool::ConstraintSolverPool(const Settings& settings, const Options& options)
@@ -38,10 +46,7 @@ ConstraintSolver& ConstraintSolverPool::solver() { return impl_->solver; }
 void ConstraintSolverPool::prepareSolve(int, int) {
   const std::lock_guard lock(impl_->mutex);
   impl_->collecting = true;
-  impl_->bodies.clear();
-  impl_->manifolds.clear();
-  impl_->joints.clear();
-  impl_->dispatcher = nullptr;
+  impl_->ForgetGroups();
 }
 
 btScalar ConstraintSolverPool::solveGroup(btCollisionObject** bodies, int num_bodies,
@@ -63,7 +68,7 @@ btScalar ConstraintSolverPool::solveGroup(btCollisionObject** bodies, int num_bo
 
 void ConstraintSolverPool::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->collecting = false;
+  if (!std::exchange(impl_->collecting, false)) return;
   impl_->order.SortBodies(&impl_->bodies);
   impl_->order.SortManifolds(&impl_->manifolds);
   impl_->order.SortJoints(&impl_->joints);
@@ -73,6 +78,7 @@ void ConstraintSolverPool::allSolved(const btContactSolverInfo& info, btIDebugDr
                            size(impl_->manifolds), impl_->joints.data(), size(impl_->joints), info,
                            debug_drawer, impl_->dispatcher);
   impl_->solver.allSolved(info, debug_drawer);
+  impl_->ForgetGroups();
 }
 
 void ConstraintSolverPool::reset() {

@@ -9,6 +9,20 @@
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
+namespace {
+
+/// What the world says, but of friction what options do.
+btContactSolverInfo ForContacts(const btContactSolverInfo& info, const Options& options) {
+  btContactSolverInfo result = info;
+  const bool by_user = (info.m_solverMode & SOLVER_ENABLE_FRICTION_DIRECTION_CACHING) != 0;
+  if (options.two_friction_directions && !by_user) {
+    result.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+  }
+  return result;
+}
+
+}  // namespace
+
 void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepLimits limits,
                      const Options& options, int substeps, detail::Threads* threads) {
   threads_ = threads;
@@ -32,11 +46,12 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),
                            &twist_memory_};
   twist_memory_.Begin();
-  const ContactSoftness softness(info, options);
-  contacts_.Begin(info, limits, softness, start);
+  const ContactSoftness softness(info, options, resting_step_.Next(info.m_timeStep));
+  const btContactSolverInfo of_contacts = ForContacts(info, options);
+  contacts_.Begin(of_contacts, limits, softness, start);
   const bool all = options.contacts == ContactForm::kManifolds && threads_->several() &&
                    contacts_.AppendAll(group.manifolds, &bodies_, &pushes_, threads_);
-  if (!all) ReadContacts(group.manifolds, info, limits, options.contacts, softness, start);
+  if (!all) ReadContacts(group.manifolds, of_contacts, limits, options.contacts, softness, start);
   contacts_.End();
   FindMotions();
 }
@@ -123,6 +138,7 @@ void FastGroup::Write(const btContactSolverInfo& info, std::span<const Velocity>
 void FastGroup::Forget() {
   joint_memory_.Forget();
   twist_memory_.Forget();
+  resting_step_.Forget();
   stiffness_.Reset();
 }
 

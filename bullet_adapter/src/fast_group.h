@@ -15,19 +15,12 @@
 #include "contacts/contact_row_builder.h"
 #include "contacts/split_impulse.h"
 #include "contacts/twist_memory.h"
+#include "group/group.h"
 #include "group_problem.h"
 #include "joint_rows.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
-
-/// What Bullet hands to a solver.
-struct Group {
-  std::span<btCollisionObject* const> bodies;
-  std::span<btPersistentManifold* const> manifolds;
-  JointSpan joints;
-  double units_per_metre = 1;  ///< See Tuning.
-};
 
 /// The rows of a group without Bullet's set-up, and its results without Bullet's finish.
 class FastGroup {
@@ -85,6 +78,7 @@ class FastGroup {
   const btContactSolverInfo* world_ = nullptr;  ///< whose tension stiffness_ knows
   GroupProblem group_;
   ContactPoints contacts_;
+  RestingStep resting_step_;
   std::vector<ContactMotion> motions_;  ///< one per body, if joints or contacts want them
   SplitImpulse pushes_;
   JointMemory joint_memory_;

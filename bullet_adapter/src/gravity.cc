@@ -26,15 +26,18 @@ btScalar GravityOf(const btCollisionObject* object) {
 }
 
 double UnitsPerMetre(std::span<btCollisionObject* const> bodies) {
+  double most = 0;
   for (const btCollisionObject* const body : bodies.first(std::min(bodies.size(), kAsked))) {
     const double ratio = static_cast<double>(GravityOf(body)) / kOnEarth;
-    if (!(ratio > 0 && ratio < HUGE_VAL)) continue;
-    int doublings = 0;  // ratio is in [0.5, 1) 2^doublings
-    const double rest = std::frexp(ratio, &doublings);
-    if (rest * rest < 0.5) --doublings;  // to the nearest power
-    return std::ldexp(1.0, std::clamp(doublings, -kMostDoublings, kMostDoublings));
+    if (ratio > most && ratio < HUGE_VAL) most = ratio;
+    // as on earth: others are not asked
+    if (most * most > 0.5 && most * most < 2) return 1;
   }
-  return 1;
+  if (most == 0) return 1;
+  int doublings = 0;  // most is in [0.5, 1) 2^doublings
+  const double rest = std::frexp(most, &doublings);
+  if (rest * rest < 0.5) --doublings;  // to the nearest power
+  return std::ldexp(1.0, std::clamp(doublings, -kMostDoublings, kMostDoublings));
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -83,23 +83,25 @@ void Put(const btScalar* from, float* to) {
 
 }  // namespace
 
+bool IsOfKnownType(const btTypedConstraint& joint) {
+  switch (joint.getConstraintType()) {
+    case POINT2POINT_CONSTRAINT_TYPE:
+    case HINGE_CONSTRAINT_TYPE:
+    case CONETWIST_CONSTRAINT_TYPE:
+    case D6_CONSTRAINT_TYPE:
+    case SLIDER_CONSTRAINT_TYPE:
+    case D6_SPRING_CONSTRAINT_TYPE:
+    case GEAR_CONSTRAINT_TYPE:
+    case FIXED_CONSTRAINT_TYPE:
+    case D6_SPRING_2_CONSTRAINT_TYPE:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool AllOfKnownType(JointSpan joints) {
-  return std::ranges::all_of(joints, [](const btTypedConstraint* joint) {
-    switch (joint->getConstraintType()) {
-      case POINT2POINT_CONSTRAINT_TYPE:
-      case HINGE_CONSTRAINT_TYPE:
-      case CONETWIST_CONSTRAINT_TYPE:
-      case D6_CONSTRAINT_TYPE:
-      case SLIDER_CONSTRAINT_TYPE:
-      case D6_SPRING_CONSTRAINT_TYPE:
-      case GEAR_CONSTRAINT_TYPE:
-      case FIXED_CONSTRAINT_TYPE:
-      case D6_SPRING_2_CONSTRAINT_TYPE:
-        return true;
-      default:
-        return false;
-    }
-  });
+  return std::ranges::all_of(joints, [](const auto* joint) { return IsOfKnownType(*joint); });
 }
 
 void JointRowBuilder::Append(JointSpan joints, const btContactSolverInfo& info, SweepLimits limits,
@@ -235,6 +237,8 @@ btScalar JointRowBuilder::FillSlots(btTypedConstraint* joint, const btContactSol
   for (Slot& slot : slots_) {
     slot.cfm = NotBelowZero(slot.cfm);
     slot.drives = slot.lower > -SIMD_INFINITY && slot.upper < SIMD_INFINITY;
+    // a motor with a negative strength has none
+    if (slot.lower > slot.upper) slot.lower = slot.upper = 0;
     if (slot.upper >= breaking) slot.upper = breaking;
     if (slot.lower <= -breaking) slot.lower = -breaking;
   }

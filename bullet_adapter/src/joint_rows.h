@@ -10,18 +10,17 @@
 #include "body_table.h"
 #include "cairn/bullet/detail/group_rows.h"
 #include "cairn/bullet/options.h"
+#include "group/group.h"
 #include "group_problem.h"
 #include "joint_memory.h"
 
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
-/// The joints of a group.
-using JointSpan = std::span<btTypedConstraint* const>;
-
-/// Whether every joint is of a class that Bullet ships. Classes of users go by Bullet's own set-up:
-/// they may count on what it does around them. The type a joint states is all there is to go by;
-/// which virtual functions a class overrides cannot be asked portably.
+/// Whether a joint, or every one, is of a class that Bullet ships. Classes of users go by Bullet's
+/// own set-up: they may count on what it does around them. The type a joint states is all there is
+/// to go by; which virtual functions a class overrides cannot be asked portably.
+bool IsOfKnownType(const btTypedConstraint& joint);
 bool AllOfKnownType(JointSpan joints);
 
 /// Asks joints for their rows.

@@ -127,7 +127,8 @@ void MoveBodies(const BodyTable& bodies, const PartedMotion& parted,
   // external impulses act in equal parts
   const btScalar pushed = btScalar(parted.parts + 1) / btScalar(2 * parted.parts);
   for (int i = 0; i < bodies.size(); ++i) {
-    if (!bodies.reacts(i)) continue;
+    // what Bullet does not move, stays
+    if (!bodies.reacts(i) || !bodies.rigid(i).isActive()) continue;
     const Motion& motion = bodies.motion(i);
     const Velocity& mean = parted.means[i];
     const btVector3 velocity = VelocityAfter(motion, parted.changes[i]);

@@ -216,10 +216,13 @@ TEST(JointContract, AJointOfAUsersTypeIsLeftToTheReferenceMode) {
   const auto run = [](bullet::Mode mode, bool* fell_back) {
     bullet::ConstraintSolver solver({}, {.mode = mode});
     World world(&solver);
-    world.AddGround(5);
     btRigidBody* const box = world.AddBox(btVector3(1, 1, 1) / 4, {.mass = 2, .pose = At(0, 5, 0)});
-    world.AddBox(btVector3(1, 1, 1) / 4, {.mass = 2, .pose = At(2, btScalar(0.2), 0)});
+    btRigidBody* const other =
+        world.AddBox(btVector3(1, 1, 1) / 4, {.mass = 2, .pose = At(0, 4, 0)});
     world.AddJoint(std::make_unique<HeightJoint>(box), bench::ConnectedBodies::kCollide);
+    world.AddJoint(std::make_unique<btPoint2PointConstraint>(*box, *other, btVector3(0, -1, 0),
+                                                             btVector3(0, 0, 0)),
+                   bench::ConnectedBodies::kPassThrough);
     for (int i = 0; i < 20; ++i) world.Step();
     EXPECT_NEAR(box->getCenterOfMassPosition().y(), 5, 1e-4);
     *fell_back = solver.fell_back();
@@ -229,6 +232,46 @@ TEST(JointContract, AJointOfAUsersTypeIsLeftToTheReferenceMode) {
   EXPECT_EQ(run(bullet::Mode::kFast, &fast_fell), run(bullet::Mode::kReference, &reference_fell));
   EXPECT_TRUE(fast_fell);
   EXPECT_FALSE(reference_fell);
+}
+
+TEST(JointContract, IslandsWithoutAJointOfAUsersTypeAreSolvedAsWithoutIt) {
+  const auto run = [](bool with) {
+    bullet::ConstraintSolver solver;
+    SceneWorld scene("chain", &solver);
+    const std::vector<btRigidBody*> chain(scene.world().dynamic_bodies().begin(),
+                                          scene.world().dynamic_bodies().end());
+    btRigidBody* const box =
+        scene.world().AddBox(btVector3(1, 1, 1) / 4, {.mass = 2, .pose = At(100, 5, 0)});
+    if (with) {
+      scene.world().AddJoint(std::make_unique<HeightJoint>(box), bench::ConnectedBodies::kCollide);
+    }
+    scene.Step(60);
+    EXPECT_EQ(solver.fell_back(), with);
+    EXPECT_EQ(solver.complaint(), "");
+    EXPECT_EQ(solver.report().islands.size(), 1u) << "the report is that of the chain";
+    if (with) {
+      EXPECT_NEAR(box->getCenterOfMassPosition().y(), 5, 1e-4);
+    }
+    std::vector<btScalar> places;
+    for (const btRigidBody* link : chain) {
+      const btVector3& at = link->getCenterOfMassPosition();
+      places.insert(places.end(), {at.x(), at.y(), at.z()});
+    }
+    return places;
+  };
+  EXPECT_EQ(run(true), run(false));
+}
+
+TEST(JointContract, AMotorWithANegativeStrengthHasNone) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  btRigidBody* const door = world.AddBox({1, 1, btScalar(0.1)}, {.mass = 2, .pose = At(1, 5, 0)});
+  auto hinge = std::make_unique<btHingeConstraint>(*door, btVector3(-1, 0, 0), btVector3(0, 1, 0));
+  hinge->enableAngularMotor(true, 1, -1);
+  world.AddJoint(std::move(hinge), bench::ConnectedBodies::kPassThrough);
+  for (int i = 0; i < 30; ++i) world.Step();
+  EXPECT_FALSE(solver.fell_back());
+  EXPECT_NEAR(door->getAngularVelocity().y(), 0, 1e-4);
 }
 
 }  // namespace

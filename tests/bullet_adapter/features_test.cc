@@ -249,6 +249,73 @@ TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
   EXPECT_GE(solver.report().bad_row, 0);
 }
 
+TEST(Features, WhatOnlyTheReferenceModeCanTakeIsNamedAsWell) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.AddGround(10);
+  world.AddBox(btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.49), 0)});
+  world.dynamic_bodies()[0]->setFriction(std::numeric_limits<btScalar>::quiet_NaN());
+  for (int i = 0; i < 3; ++i) world.Step();
+  EXPECT_TRUE(solver.fell_back());
+  EXPECT_NE(solver.complaint().find("friction"), std::string::npos) << solver.complaint();
+  world.dynamic_bodies()[0]->setFriction(1);
+  // points keep the friction that they were found with
+  world.dynamic_bodies()[0]->translate({0, 5, 0});
+  world.Step();
+  world.Step();
+  EXPECT_EQ(solver.complaint(), "");
+}
+
+TEST(Features, ASubstepEndsOnce) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  HangBox(&world);
+  world.Step();
+  btRigidBody* const box = world.dynamic_bodies()[0];
+  box->applyCentralForce({0, -100, 0});
+  const btVector3 velocity = box->getLinearVelocity();
+  solver.allSolved(world.solver_info(), nullptr);
+  EXPECT_EQ(box->getLinearVelocity(), velocity);
+}
+
+// A balloon, or a planet's own gravity, says nothing of the units of the world.
+TEST(Features, ABodyThatHardlyFallsDoesNotSayHowLongAMetreIs) {
+  const auto hash_with = [](double units) {
+    Settings settings;
+    settings.tuning.units_per_metre = units;
+    bullet::ConstraintSolver solver(settings);
+    World world(&solver);
+    btRigidBody* const balloon =
+        world.AddBox(btVector3(1, 1, 1) / 4, {.mass = 1, .pose = At(0, 50, 0)});
+    balloon->setGravity({0, btScalar(-0.05), 0});
+    HangBox(&world)->getRigidBodyA().setAngularVelocity({3, 0, 5});
+    for (int i = 0; i < 60; ++i) world.Step();
+    return bench::StateHash(world);
+  };
+  EXPECT_EQ(hash_with(0), hash_with(1));
+  EXPECT_NE(hash_with(1.0 / 128), hash_with(1));
+}
+
+TEST(Features, ContactsHaveTwoDirectionsOfFrictionUnlessAskedForOne) {
+  const auto directions = [](const Settings& settings, const bullet::Options& options, int mode) {
+    bullet::ConstraintSolver solver(settings, options);
+    World world(&solver);
+    world.AddGround(10);
+    world.AddBox(btVector3(1, 1, 1) / 2, {.mass = 1, .pose = At(0, btScalar(0.49), 0)});
+    world.solver_info().m_solverMode = mode;
+    world.Step();
+    EXPECT_EQ(solver.problem().manifolds.size(), 1u);
+    return static_cast<int>(solver.problem().manifolds[0].tangents);
+  };
+  const int one = btContactSolverInfo().m_solverMode, two = one | SOLVER_USE_2_FRICTION_DIRECTIONS;
+  EXPECT_EQ(directions({}, {}, one), 2);
+  EXPECT_EQ(directions({}, {}, two), 2);
+  EXPECT_EQ(directions({}, {.two_friction_directions = false}, one), 1);
+  EXPECT_EQ(directions({}, {.two_friction_directions = false}, two), 2);
+  EXPECT_EQ(directions({.steps = false}, {}, one), 1) << "sweeps as Bullet's";
+  EXPECT_EQ(directions({}, {}, one | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING), 1);
+}
+
 // A joint with a lever of 1e-28 m on a body that may turn but not move: to answer it would have to
 // turn by 1e40 rad/s, which Bullet's floats do not hold.
 TEST(Features, AJointThatMovesABodyByNothingButRoundingLeavesItAlone) {

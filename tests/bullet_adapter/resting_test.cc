@@ -45,6 +45,15 @@ class Stack {
     for (int i = 0; i < steps; ++i) world_.Step(parts);
     return *this;
   }
+  void StepBy(double seconds) {
+    world_.SetTimeStep(static_cast<btScalar>(seconds));
+    world_.Step();
+    world_.SetTimeStep(static_cast<btScalar>(kStep));
+  }
+  /// Those that a change gave to the boxes; no step after that.
+  void DeleteShapes() {
+    for (btRigidBody* box : boxes_) delete box->getCollisionShape();
+  }
   double Height() const {
     return static_cast<double>(boxes_.back()->getWorldTransform().getOrigin().y());
   }
@@ -86,6 +95,34 @@ TEST(Resting, IsAsDeepAsTheStepIsLong) {
   on.Step(kSix + 60, 2);
   off.Step(kSix + 60, 2);
   EXPECT_NEAR(off.Height() - on.Height(), 3 * 0.1 * kFall / 4, 0.05 * kFall / 4);
+}
+
+TEST(Resting, DoesNotSinkInAFrameThatHangs) {
+  Stack stack({});
+  stack.Step(kSix + 120);
+  const double before = stack.Height();
+  stack.StepBy(0.1);
+  stack.Step(30);
+  EXPECT_NEAR(stack.Height(), before, 0.3 * kFall);
+}
+
+// Bullet counts the age of their points twice as fast.
+TEST(Resting, CompoundsAreAsYoungAsOthers) {
+  const auto compounds = [](World* world) {
+    for (btRigidBody* box : world->dynamic_bodies()) {
+      auto* const shape = new btCompoundShape;
+      shape->addChildShape(btTransform::getIdentity(), box->getCollisionShape());
+      box->setCollisionShape(shape);
+    }
+  };
+  const auto places_of = [&](const bullet::Options& options, int steps) {
+    Stack stack(options, compounds);
+    std::vector<btScalar> places = stack.Step(steps).Places();
+    stack.DeleteShapes();
+    return places;
+  };
+  EXPECT_EQ(places_of({}, kFour), places_of(kOff, kFour));
+  EXPECT_NE(places_of({}, kSix), places_of(kOff, kSix));
 }
 
 TEST(Resting, LeavesAloneWhatItsUserSet) {

@@ -190,7 +190,7 @@ void ReadOurs(const Substep& substep, const Substep::Group& group, const ChangeS
   change(substep);
   static detail::Threads alone;  // outlives what reads with it
   ours->Read({group.bodies, group.manifolds, group.joints}, info, bullet::SweepLimits::kBullet,
-             {.contacts = form}, 1, &alone);
+             {.contacts = form, .two_friction_directions = false}, 1, &alone);
 }
 
 /// Sums of some ten products of numbers of up to ten, in floats.

@@ -18,13 +18,15 @@ namespace cairn::test {
 /// Rounding of the arithmetic that Bullet was built with.
 inline constexpr double kBulletEpsilon = std::numeric_limits<btScalar>::epsilon();
 
-/// A scene of bench/scenes in its world, at its default size.
+/// A scene of bench/scenes in its world, at its default size unless options say so.
 class SceneWorld {
  public:
   SceneWorld(std::string_view name, btConstraintSolver* solver, std::uint64_t seed = 0)
+      : SceneWorld(name, solver, bench::SceneOptions{.seed = seed}) {}
+  SceneWorld(std::string_view name, btConstraintSolver* solver, const bench::SceneOptions& options)
       : world_(solver) {
     scene_ = bench::Make(*bench::FindScene(name));
-    scene_->Build(&world_, {.seed = seed});
+    scene_->Build(&world_, options);
   }
 
   void Step(int frames) {

@@ -158,6 +158,25 @@ TEST(SubstepsInBullet, HoldWhips) {
 }
 
 // In a mode where Bullet moves bodies there is one step.
+TEST(SubstepsInBullet, LeaveWhatBulletDoesNotMove) {
+  for (const bool relax : {false, true}) {
+    Settings settings = Parts(relax ? 1 : 4);
+    settings.relax = relax;
+    bullet::ConstraintSolver solver(settings);
+    World world(&solver);
+    const auto add = [&](btScalar y) {
+      return world.AddBox(btVector3(1, 1, 1) / 4, {.mass = 1, .pose = At(0, y, 0)});
+    };
+    btRigidBody *const held = add(5), *const hangs = add(4);
+    held->forceActivationState(DISABLE_SIMULATION);
+    world.AddJoint(std::make_unique<btPoint2PointConstraint>(*held, *hangs, btVector3(0, -1, 0),
+                                                             btVector3(0, 0, 0)),
+                   bench::ConnectedBodies::kPassThrough);
+    for (int i = 0; i < 60; ++i) world.Step();
+    EXPECT_EQ(HeightOf(held), 5);
+  }
+}
+
 TEST(SubstepsInBullet, AreNotMadeWhereBulletReads) {
   bullet::ConstraintSolver once({}, {.mode = bullet::Mode::kReference});
   bullet::ConstraintSolver parts(Parts(4), {.mode = bullet::Mode::kReference});

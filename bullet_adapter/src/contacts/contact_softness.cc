@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/contact_softness.h"
 
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
@@ -23,19 +24,39 @@ constexpr auto kSlop = btScalar(0.1);
 /// How much of the ERP of the world it then has.
 constexpr auto kErp = btScalar(0.75);
 
-/// Steps since the oldest point of a manifold was found.
-int StepsOf(const btPersistentManifold& manifold) {
-  int steps = 0;
+/// Longer steps are followed by this part of the difference, in each step.
+constexpr auto kFollows = btScalar(64);
+
+/// How often Bullet has looked at the oldest point of a manifold since it was found.
+int LooksAt(const btPersistentManifold& manifold) {
+  int looks = 0;
   for (int i = 0; i < manifold.getNumContacts(); ++i) {
-    steps = std::max(steps, manifold.getContactPoint(i).getLifeTime());
+    looks = std::max(looks, manifold.getContactPoint(i).getLifeTime());
   }
-  return steps;
+  return looks;
+}
+
+/// How often Bullet looks at the points of a manifold in a step: those of compounds twice.
+int LooksInStep(const btPersistentManifold& manifold) {
+  const auto is_compound = [](const btCollisionObject& object) {
+    return object.getCollisionShape()->isCompound();
+  };
+  return is_compound(*manifold.getBody0()) || is_compound(*manifold.getBody1()) ? 2 : 1;
 }
 
 }  // namespace
 
-ContactSoftness::ContactSoftness(const btContactSolverInfo& info, const Options& options)
+btScalar RestingStep::Next(btScalar time_step) {
+  if (!(time_step > 0)) return step_;
+  const bool shorter = step_ == 0 || time_step < step_;
+  step_ = shorter ? time_step : step_ + (time_step - step_) / kFollows;
+  return step_;
+}
+
+ContactSoftness::ContactSoftness(const btContactSolverInfo& info, const Options& options,
+                                 btScalar resting_step)
     : time_step_(info.m_timeStep),
+      resting_step_(resting_step),
       cfm_(info.m_globalCfm),
       world_{.erp = info.m_erp2,
              .compliance = NotBelowZero(info.m_globalCfm) / info.m_timeStep,
@@ -43,13 +64,15 @@ ContactSoftness::ContactSoftness(const btContactSolverInfo& info, const Options&
       rests_(options.resting_slop && info.m_linearSlop == 0) {}
 
 Softness ContactSoftness::Rest(const btPersistentManifold& manifold) const {
-  const btScalar age = btScalar(StepsOf(manifold)) * time_step_;
+  const int looks = LooksAt(manifold);
+  if (!(btScalar(looks) * resting_step_ > kRestsFrom)) return world_;
+  const btScalar age = btScalar(looks) / btScalar(LooksInStep(manifold)) * resting_step_;
   if (!(age > kRestsFrom)) return world_;
   const btScalar gravity = btMax(GravityOf(manifold.getBody0()), GravityOf(manifold.getBody1()));
   if (gravity == 0) return world_;
   const btScalar part = btMin((age - kRestsFrom) / kSettles, btScalar(1));
   Softness softness = world_;
-  softness.slop = part * kSlop * gravity * time_step_ * time_step_;
+  softness.slop = part * kSlop * gravity * resting_step_ * resting_step_;
   softness.erp *= 1 - part * (1 - kErp);
   return softness;
 }

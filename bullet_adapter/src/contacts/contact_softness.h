@@ -17,12 +17,25 @@ struct Softness {
   btScalar slop = 0;        ///< How deep the point rests [m].
 };
 
+/// The time step by which contacts rest: the shortest of late, so that a frame that hangs does not
+/// let bodies sink.
+class RestingStep {
+ public:
+  /// Of a substep of @p time_step [s].
+  btScalar Next(btScalar time_step);
+  void Forget() { step_ = 0; }
+
+ private:
+  btScalar step_ = 0;  ///< [s], 0 where there was none
+};
+
 /// How the contacts of a group give way: as the world says, gently where they have lasted long
 /// (Options::resting_slop), or as a point says for itself.
 class ContactSoftness {
  public:
   ContactSoftness() = default;
-  ContactSoftness(const btContactSolverInfo& info, const Options& options);
+  /// @param resting_step  RestingStep::Next()
+  ContactSoftness(const btContactSolverInfo& info, const Options& options, btScalar resting_step);
 
   /// Of the points of a manifold that have none of their own.
   Softness Of(const btPersistentManifold& manifold) const {
@@ -40,7 +53,7 @@ class ContactSoftness {
   Softness Rest(const btPersistentManifold& manifold) const;
   Softness Own(const btManifoldPoint& point) const;
 
-  btScalar time_step_ = 0, cfm_ = 0;
+  btScalar time_step_ = 0, resting_step_ = 0, cfm_ = 0;
   Softness world_;
   bool rests_ = false;  ///< what lasts long is gentle
 };

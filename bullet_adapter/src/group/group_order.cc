@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "group_order.h"
+#include "group/group_order.h"
 
 #include <algorithm>
 #include <array>

@@ -35,6 +35,11 @@ constexpr double kNear = 10;
 constexpr double kMostThrown = 1;
 /// The same where it is strained: what waits longer parts further.
 constexpr double kMostThrownStrained = 3;
+/// Errors of contacts that let heavy loads fall where sweeps leave them in frame after frame [m/s]
+/// or [rad/s]: what gravity adds in a step at 60 Hz. Islands of so many bodies then take steps that
+/// pay whatever they cost in terms of row by row, which is microseconds.
+constexpr double kGross = 0.15;
+constexpr int kGrossBodies = 20;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
@@ -158,7 +163,8 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const double scalar = steps_->ScalarAlone(i, sweeps), rest = steps_->RestAlone(i, sweeps);
   const double left = of_scalar * scalar - rest;
   const double of_more = strained ? kMostOfScalarWithMoreStrained : kMostOfScalarWithMore;
-  const double most_price = strained ? of_rest : std::min(of_rest, left);
+  const bool gross = !joints && bodies <= kGrossBodies && odds.stays_gross();
+  const double most_price = strained || gross ? of_rest : std::min(of_rest, left);
   const int condensing = !strained && steps_->CondensesJoints(i) ? 1 : 0;
   const auto fits = [&](int factorisations) {
     const bool first = factorisations == 1;
@@ -230,7 +236,8 @@ void StepPlanner::Learn() {
     const PlannedIsland& island = frame_->plan().islands()[i];
     if (island.first_body < 0) continue;
     StepOdds& odds = steps_->odds(i);
-    odds.EndFrame(islands_->StepsTaken(i) > 0 ? island.bodies : 0);
+    const bool gross = Largest((*islands_)[i].seen, UnitOf(frame_->settings)) > kGross;
+    odds.EndFrame(islands_->StepsTaken(i) > 0 ? island.bodies : 0, gross);
     if (!frame_->watches_gains()) continue;
     const int least = run.begin == 0 ? kLeastRun : kLeastRunAfterStep;
     const int sweeps = islands_->report(i).sweeps - run.begin;

@@ -11,6 +11,20 @@
 namespace cairn {
 namespace {
 
+/// Rows that hold a point of one body to one of another.
+constexpr int kHoldsPoint = 3;
+
+/// Whether rows are of a joint that holds two bodies together: some row has no bounds, or, as of
+/// one that breaks, all that hold a point have.
+bool HoldsTogether(std::span<const simd::RowShape> rows) {
+  const auto is_free = [](const auto& row) { return row.bound == simd::RowBound::kFree; };
+  const auto is_bounded = [](const auto& row) {
+    return row.bound == simd::RowBound::kOwn && !row.angular;
+  };
+  return std::any_of(rows.begin(), rows.end(), is_free) ||
+         std::count_if(rows.begin(), rows.end(), is_bounded) >= kHoldsPoint;
+}
+
 using simd::kLanes;
 
 /// Runs that a pair without a colour may still join.
@@ -68,10 +82,7 @@ void Plan::FindIslands(int bodies) {
   }
   joints_of_shape_.clear();
   for (int shape = 0; shape < shapes_.size(); ++shape) {
-    const std::span<const simd::RowShape> rows = shapes_.rows(shape);
-    joints_of_shape_.push_back(std::any_of(rows.begin(), rows.end(), [](const auto& row) {
-      return row.bound == simd::RowBound::kFree;
-    }));
+    joints_of_shape_.push_back(HoldsTogether(shapes_.rows(shape)));
   }
   // pairs that nothing can move for are an island of their own, the last
   island_of_pair_.resize(list_.pairs.size());

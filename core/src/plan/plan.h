@@ -20,7 +20,7 @@ struct PlannedIsland {
   int first_body = -1;  ///< Lowest index in the problem, -1 for rows that nothing can move for.
   int bodies = 0, rows = 0;
   int group = 0;
-  bool joints = false;  ///< some row has no bounds
+  bool joints = false;  ///< that hold bodies together
 };
 
 /// A large island, or several small ones that fill the lanes together. Blocks, impulses and bodies

@@ -20,6 +20,23 @@ constexpr int kBlockRows = 256;
 constexpr double kMeasureSweeps = 0.5;
 /// A step that brought the residual down to this share is kept without trying sweeps alone.
 constexpr double kSureGain = 0.1;
+/// Rows that hold a point of one body to one of another.
+constexpr int kHoldsPoint = 3;
+
+/// Whether some rows are of a joint that holds bodies together: without bounds, or, as of one that
+/// breaks, all that hold a point with some. Rows of a joint follow each other.
+bool HoldsTogether(std::span<const PackedRow> rows) {
+  int bounded = 0;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const PackedRow& row = rows[i];
+    if (!HasBounds(row)) return true;
+    if (i == 0 || row.a != rows[i - 1].a || row.b != rows[i - 1].b) bounded = 0;
+    const bool pushes = row.lo == 0 && row.hi == kInfinity;
+    if (row.parent == kNoRow && !pushes && !row.angular) ++bounded;
+    if (bounded == kHoldsPoint) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -29,7 +46,7 @@ IslandCycle::IslandCycle(const PackedIsland& island, IslandState start, const Se
   const bool asked = settings_.method == Method::kPgsSm && settings_.k_sm > 0;
   if (asked) report_.no_step = NoStep::kEnded;
   guards_ = IsGuarded(settings_);
-  joints_ = !std::ranges::all_of(island_.rows, HasBounds);
+  joints_ = HoldsTogether(island_.rows);
   report_.residual_before = MeasureResidual(island_, at_.state);
   if (settings_.max_sweeps == 0 || island_.rows.empty()) Stop(StopReason::kSweepLimit);
 }

@@ -81,7 +81,8 @@ void StepOdds::Expect(double cut) {
   if (!later_.known) later_.cut = kLater * expected_;
 }
 
-void StepOdds::EndFrame(int stepped_bodies) {
+void StepOdds::EndFrame(int stepped_bodies, bool gross) {
+  if (stepped_bodies == 0) gross_frames_ = gross ? std::min(gross_frames_ + 1, kGrossFrames) : 0;
   ++age_;
   ++trial_age_;
   stepped_bodies_ = stepped_bodies;

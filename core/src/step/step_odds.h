@@ -43,7 +43,11 @@ class StepOdds {
   void Expect(double cut);
   /// Where no step was taken, what is known of them fades into what was expected.
   /// @param stepped_bodies  of the island, 0 where no step was taken
-  void EndFrame(int stepped_bodies);
+  /// @param gross  the errors that it ended with are
+  void EndFrame(int stepped_bodies, bool gross = false);
+  /// The last frames that had sweeps alone ended with gross errors: what hits something is soon
+  /// done with it, a load that sweeps do not carry is not.
+  bool stays_gross() const { return gross_frames_ >= kGrossFrames; }
   /// Sweeps were not measured for long: a frame without steps is due.
   bool stale() const;
 
@@ -67,10 +71,12 @@ class StepOdds {
   static constexpr double kCarries = 2;
 
   static constexpr int kLate = 60;
+  static constexpr int kGrossFrames = 4;
 
   bool carries_ = false;
   bool pays_ = true;
   int stepped_bodies_ = 0, frames_without_ = kLate;
+  int gross_frames_ = 0;  ///< in a row, of those without a step; at most kGrossFrames
   /// Logarithm of the gain of steps over that of the sweeps in their place: mean that forgets.
   double ratio_ = 0;
   int trials_ = 0;                       ///< that it is of

@@ -75,6 +75,23 @@ TEST(StepOdds, WantAFrameWithoutStepsNowAndThen) {
   EXPECT_FALSE(odds.stale());
 }
 
+TEST(StepOdds, TellALoadThatIsNotCarriedFromAHit) {
+  StepOdds odds;
+  const auto end_frames = [&odds](int frames, int stepped_bodies, bool gross) {
+    for (int i = 0; i < frames; ++i) odds.EndFrame(stepped_bodies, gross);
+  };
+  end_frames(3, 0, true);
+  end_frames(1, 0, false);
+  end_frames(3, 0, true);
+  EXPECT_FALSE(odds.stays_gross()) << "never for long";
+  end_frames(1, 0, true);
+  EXPECT_TRUE(odds.stays_gross());
+  end_frames(100, 5, false);
+  EXPECT_TRUE(odds.stays_gross()) << "frames with steps say nothing of sweeps";
+  end_frames(1, 0, false);
+  EXPECT_FALSE(odds.stays_gross());
+}
+
 // A rope that was left to sweeps meets a wall that takes steps: together they have not stepped.
 TEST(StepOdds, KnowWhetherMostBodiesWereStepped) {
   StepOdds odds;

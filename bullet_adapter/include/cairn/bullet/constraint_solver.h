@@ -39,8 +39,8 @@ struct SubstepTimes {
 /// take. All of that is counted, never timed. A Budget::Time is for the whole substep, set-up and
 /// write-back included. Options::effort says whose numbers are read.
 ///
-/// A group that cannot be solved (a NaN in it, say) is left to Bullet's iteration, and all while a
-/// setting is out of its range. report() says so, and complaint() and the debug drawer in words.
+/// What cannot be solved (a NaN, a setting out of its range) is left to Bullet's iteration:
+/// report() says so, and complaint() and the debug drawer in words.
 ///
 /// SOLVER_RANDMIZE_ORDER is ignored. In Mode::kFast btManifoldPoint::m_prevRHS of contacts is used,
 /// to know the directions of lateral impulses from one substep to the next, and joints start from
@@ -56,10 +56,10 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// Of the last substep; of the last group if nobody calls allSolved(): btConstraintSolverPoolMt.
   const Report& report() const;
   SubstepTimes times() const;
-  /// Left to Mode::kReference, or from there to Bullet's iteration, where report() is not ok(): a
-  /// setting out of its range, a joint that Bullet does not ship, a Solve() refused or broken down.
+  /// Left to Mode::kReference, or from there to Bullet's iteration: a setting out of its range, a
+  /// Solve() refused; or islands, of which report() says nothing, with joints not of Bullet's.
   bool fell_back() const;
-  /// What report() says is wrong, for people: "threads is 0, must be 1 to 1024". Empty if nothing.
+  /// What is wrong, for people: "threads is 0, must be 1 to 1024". Empty if nothing.
   std::string complaint() const;
   /// The problem that report() is about, and the impulses that solve it, one per row: joints first,
   /// in the order in which Bullet hands them over, then contacts, those in manifolds last. Valid

@@ -29,8 +29,7 @@ enum class Effort {
 
 /// How joints and contacts go to the solver in Mode::kFast.
 enum class ContactForm {
-  /// As cairn::Joint and cairn::Manifold, which is faster; joints with a CFM, and manifolds with
-  /// more than normals and plain friction (see docs/bullet.md), as rows.
+  /// As cairn::Joint and cairn::Manifold, if they fit (docs/bullet.md): faster.
   kManifolds,
   kRows,  ///< All as rows; also wherever sweeps are made in double precision.
 };
@@ -40,17 +39,18 @@ struct Options {
   Mode mode = Mode::kFast;
   Effort effort = Effort::kAuto;
   ContactForm contacts = ContactForm::kManifolds;
-  /// Whether friction starts from the lateral impulses in the contact points; Mode::kFast, and only
-  /// with SOLVER_USE_WARMSTARTING in the solver mode of the world, scaled by m_warmstartingFactor.
+  /// Friction starts from impulses in the points, if SOLVER_USE_WARMSTARTING is set. Mode::kFast.
   bool warm_start_friction = true;
   /// The same for joints, from the substep before if this solver made it.
   bool warm_start_joints = true;
   /// Whether bodies under tension are stiffened, if Settings::geometric_stiffness is on; kFast.
   bool geometric_stiffness = true;
-  /// Whether contacts that have lasted for 4 s become gentle over 2 s, so that towers do not rock:
-  /// they rest .1 g h^2 deep (0.3 mm at 60 Hz), and m_erp2 counts for three quarters. Not where
-  /// m_linearSlop is set, or at points with a CFM, ERP or stiffness of their own. Mode::kFast.
+  /// Contacts that have lasted for 4 s become gentle: they rest .1 g h^2 deep, m_erp2 counts for
+  /// 3/4. Not with m_linearSlop, or a CFM, ERP, stiffness of points; docs/tuning.md. kFast.
   bool resting_slop = true;
+  /// Two directions of friction where the world has one, Bullet's default, by which towers fall.
+  /// Not without steps, nor with SOLVER_ENABLE_FRICTION_DIRECTION_CACHING. Mode::kFast.
+  bool two_friction_directions = true;
 };
 
 }  // namespace CAIRN_BULLET_PRECISION
