@@ -40,7 +40,8 @@ struct ShadowFrame {
 /// hard as the world says, whatever their age: both solve the same.
 class Shadow {
  public:
-  explicit Shadow(const Settings& settings) : solver_(settings, {.resting_slop = false}) {}
+  explicit Shadow(const Settings& settings)
+      : solver_(settings, {.resting_slop = false, .two_friction_directions = false}) {}
 
   /// Solves the substep from its captured state; the bodies keep what comes out.
   /// @param budget  [ms]

@@ -61,11 +61,13 @@ struct SolverChoice {
     contestant->AllowThreads(threads);
     return contestant;
   }
-  /// One that is compared with others on the same states: contacts of any age are what the settings
-  /// of the world say, so that all are asked the same (Options::resting_slop is off).
+  /// One that is compared with others on the same states: contacts of any age, and directions of
+  /// friction, are what the settings of the world say, so that all are asked the same.
   std::unique_ptr<Contestant> MakeForSameStates() const {
     std::unique_ptr<Contestant> contestant = Make();
-    if (contestant->cairn() != nullptr) contestant->cairn()->options().resting_slop = false;
+    if (contestant->cairn() == nullptr) return contestant;
+    bullet::Options& options = contestant->cairn()->options();
+    options.resting_slop = options.two_friction_directions = false;
     return contestant;
   }
 };

@@ -12,7 +12,8 @@ namespace cairn::cli {
 ErrorSampler::ErrorSampler(std::span<const SolverChoice> solvers,
                            const btContactSolverInfo& defaults)
     : reference_(std::make_unique<bullet::ConstraintSolver>(
-          bench::ReferenceSettings(), bullet::Options{.resting_slop = false})),
+          bench::ReferenceSettings(),
+          bullet::Options{.resting_slop = false, .two_friction_directions = false})),
       defaults_(defaults) {
   for (const SolverChoice& choice : solvers) {
     contestants_.push_back(choice.MakeForSameStates());

@@ -11,6 +11,7 @@ bullet::Options LikeBullet() {
   bullet::Options options;
   options.warm_start_friction = options.warm_start_joints = false;
   options.resting_slop = false;
+  options.two_friction_directions = false;
   return options;
 }
 

@@ -13,8 +13,9 @@ constexpr int kIterationsOfStates = 200;
 
 SameStates::SameStates(const SceneChoice& scene, const Setup& setup)
     : run_(scene, kIterationsOfStates),
-      reference_(bench::ReferenceSettings(),
-                 {.geometric_stiffness = false, .resting_slop = false}) {
+      reference_(
+          bench::ReferenceSettings(),
+          {.geometric_stiffness = false, .resting_slop = false, .two_friction_directions = false}) {
   for (SolverChoice solver : SmallSolvers()) {
     solver.threads = setup.threads;
     shadows_.push_back(std::make_unique<Shadow>());
