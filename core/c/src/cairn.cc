@@ -9,6 +9,7 @@
 
 #include "cairn/detail/memory.h"
 #include "cairn/detail/recorder.h"
+#include "cairn/detail/threads.h"
 #include "convert.h"
 #include "same_layout.h"
 
@@ -85,7 +86,10 @@ BadSetting FindBad(const CairnSettings& settings) {
 CairnStatus Accept(const CairnSettings& settings, CairnSolver* solver) {
   if (FindBad(settings).name != nullptr) return cairnBadSettings;
   solver->solver.settings() = c::ToSettings(settings);
-  solver->solver.settings().executor = solver->jobs.Take(settings.jobs);
+  Executor* const jobs = solver->jobs.Take(settings.jobs);
+  solver->solver.settings().executor = jobs;
+  // at once: others may come to lie where those of before were
+  solver->solver.threads().Follow(settings.threads, jobs);
   return cairnOk;
 }
 
