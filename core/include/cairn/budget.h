@@ -16,9 +16,9 @@ class Budget {
   /// No limit: Settings::tolerance and Settings::max_sweeps decide.
   static constexpr Budget Unlimited() { return Budget(Kind::kUnlimited, 0); }
 
-  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read at least every
-  /// 10,000 rows, and what writing the results will take is set aside; a subspace step starts only
-  /// if its predicted cost and the sweeps after it fit, and is given up where it takes longer.
+  /// Wall-clock time from the call of Solve() on [ns], >= 0. The clock is read every 10,000 rows or
+  /// so, and what writing the results will take is set aside. Accelerated sweeps and subspace steps
+  /// start only if their predicted cost fits; a step is given up where it takes longer.
   /// Results depend on the machine: Report::replay makes them again, but for substeps and relax.
   /// cairn::lcp reads the clock between sweeps and between factorisations, not inside them.
   static constexpr Budget Time(std::chrono::nanoseconds limit) {
