@@ -281,7 +281,7 @@ void ConstraintSolver::Impl::SolveOdd(ConstraintSolver* self, const btContactSol
                                       btIDebugDraw* debug_drawer, btDispatcher* of_world) {
   const Group odd = islands.odd();
   // the report is that of all others
-  Report of_others = report;
+  Report of_others = std::exchange(report, {});
   std::vector<btCollisionObject*> some(odd.bodies.begin(), odd.bodies.end());
   std::vector<btPersistentManifold*> touching(odd.manifolds.begin(), odd.manifolds.end());
   std::vector<btTypedConstraint*> joints(odd.joints.begin(), odd.joints.end());

@@ -157,7 +157,6 @@ TEST(SubstepsInBullet, HoldWhips) {
   EXPECT_LT(four, once / 3);
 }
 
-// In a mode where Bullet moves bodies there is one step.
 TEST(SubstepsInBullet, LeaveWhatBulletDoesNotMove) {
   for (const bool relax : {false, true}) {
     Settings settings = Parts(relax ? 1 : 4);
@@ -177,6 +176,7 @@ TEST(SubstepsInBullet, LeaveWhatBulletDoesNotMove) {
   }
 }
 
+// In a mode where Bullet moves bodies there is one step.
 TEST(SubstepsInBullet, AreNotMadeWhereBulletReads) {
   bullet::ConstraintSolver once({}, {.mode = bullet::Mode::kReference});
   bullet::ConstraintSolver parts(Parts(4), {.mode = bullet::Mode::kReference});
