@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "small/small.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "scenes/small_scenes.h"
-#include "support/names.h"
+#include "support/failure.h"
 #include "support/statistics.h"
 #include "worlds/random_world.h"
 
@@ -53,15 +57,17 @@ std::vector<SceneChoice> SmallWorlds() {
 std::vector<SceneChoice> ParseSmallWorlds(std::span<const std::string> words) {
   const std::vector<SceneChoice> all = SmallWorlds();
   if (words.empty()) return all;
-  std::vector<std::string> names;
-  for (const SceneChoice& world : all) names.emplace_back(world.info->name);
-  std::vector<bool> chosen(all.size());
-  for (const std::string& word : words) {
-    chosen[FindName("small world", word, names, "'cairn run small --help' shows all")] = true;
-  }
   std::vector<SceneChoice> worlds;
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (chosen[i]) worlds.push_back(all[i]);
+  for (const std::string& word : words) {
+    const auto usual = std::find_if(all.begin(), all.end(), [&word](const SceneChoice& world) {
+      return world.info->name == word;
+    });
+    worlds.push_back(usual == all.end() ? ParseScene(word) : *usual);
+    if (worlds.back().frame >= 0) {
+      throw Failure(kUsage, fmt::format("small worlds start at frame 0: leave out the frame of "
+                                        "'{}'; --warmup skips frames",
+                                        word));
+    }
   }
   return worlds;
 }

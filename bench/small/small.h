@@ -68,7 +68,8 @@ bool AnyCairnFailed(std::span<const SmallResult> worlds);
 /// `cairn run small` runs, at sizes of its own. A new one is a scene, and one line here.
 std::vector<SceneChoice> SmallWorlds();
 
-/// Those of the names typed, each once; all without names. @throws Failure (kUsage)
+/// Those of the words typed, in their order: a name of SmallWorlds() at its size there, any other
+/// scene as ParseScene() reads it. All of SmallWorlds() without words. @throws Failure (kUsage)
 std::vector<SceneChoice> ParseSmallWorlds(std::span<const std::string> words);
 
 /// Random worlds of `cairn worlds`. @pre seeds fit an int

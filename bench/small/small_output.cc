@@ -134,7 +134,13 @@ std::string ShareUpTo(double most, std::span<const double> values) {
 
 TextTable SmallTable(std::span<const SmallResult> worlds) {
   TextTable table = EmptyTable();
-  for (const SmallResult& world : worlds) AddWorld(world, world.name, &table);
+  const std::vector<SceneChoice> usual = SmallWorlds();
+  for (const SmallResult& world : worlds) {
+    const bool is_usual = std::any_of(usual.begin(), usual.end(), [&world](const auto& scene) {
+      return scene.info->name == world.name && scene.size == world.size;
+    });
+    AddWorld(world, is_usual ? world.name : fmt::format("{}:{}", world.name, world.size), &table);
+  }
   if (worlds.size() > 1) table.rows.push_back(MeanRow(worlds, "geometric mean", false));
   return table;
 }

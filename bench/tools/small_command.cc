@@ -41,9 +41,10 @@ std::string Notes() {
         fmt::format("\n  {:<14} {:>3}  {}", world.info->name, world.size, world.info->description);
   }
   return notes +
-         "\nwith their size, as in 'cairn list scenes'. With --seeds, random worlds as 'cairn "
-         "worlds' draws\nthem, but with ten iterations; next: cairn_frames parts --scene "
-         "random:SEED\n"
+         "\nwith their size; any other scene of 'cairn list scenes', too, as NAME or NAME:SIZE.\n"
+         "With --seeds, random worlds as 'cairn worlds' draws them, but with ten iterations; "
+         "next:\n"
+         "cairn_frames parts --scene random:SEED\n"
          "Exit codes: 0 fine, 1 a solver of Cairn failed, 2 usage, 3 a file cannot be written.";
 }
 
@@ -114,7 +115,8 @@ Command AddSmallCommand(CLI::App* run) {
   CLI::App* const small = run->add_subcommand(
       "small", "Small worlds, as most games have them, in one table: Cairn beside Bullet");
   small->footer(Notes());
-  small->add_option("world", words->worlds, "Worlds to run (below); default: all")
+  small
+      ->add_option("world", words->worlds, "Worlds to run (below), NAME or NAME:SIZE; default: all")
       ->type_name("WORLD");
   const auto add = TextAdder(small);
   add("--seeds", &words->seeds, "Random worlds FROM to TO - 1 instead, by their kinds", "FROM:TO");

@@ -89,6 +89,11 @@ class SmallTest(CairnTest):
                   for _ in range(2)]
         self.assertEqual(errors[0], errors[1])
 
+    def test_other_scenes_and_sizes_are_worlds_too(self):
+        text = self.fine("run", "small", "tower:3", "bridge:10", "incline", "--hot", "--frames", "4", "--samples", "0")
+        self.assertEqual([line.split()[0] for line in text.splitlines()[2:5]], ["tower:3", "bridge:10", "incline"])
+        self.assertEqual([line.split()[1] for line in text.splitlines()[2:5]][::2], ["3", "1"])
+
     def test_markdown_is_the_table(self):
         self.fine(*QUICK, "--markdown", self.path("t.md"))
         with open(self.path("t.md"), encoding="utf-8") as file:
@@ -97,8 +102,9 @@ class SmallTest(CairnTest):
         self.assertTrue(any(re.match(r"\| door ", line) for line in lines))
 
     def test_what_cannot_be_is_refused(self):
-        for words, expected in ((["castle"], "small world"),
-                                (["twoer"], "tower"),
+        for words, expected in ((["twoer"], "tower"),
+                                (["tower:101"], "size of tower"),
+                                (["tower@30"], "--warmup"),
                                 (["--frames", "0"], "--frames"),
                                 (["--frames", "x"], "--frames"),
                                 (["--frames", "10", "--warmup", "10"], "--warmup"),
