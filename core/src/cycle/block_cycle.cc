@@ -28,6 +28,10 @@ constexpr double kNearTolerance = 2;
 /// What looking at a state and keeping a copy costs, in sweeps.
 constexpr double kKeepingSweeps = 1;
 
+/// What impulses are multiplied by where an island that sweeps leave unfinished begins. They catch
+/// up with a load too late and go on too far, so that stacks rock and beams swing up.
+constexpr float kSoftStart = 0.85f;
+
 }  // namespace
 
 void BlockCycle::Run(const CycleFrame& frame, Report* report) {
@@ -36,8 +40,10 @@ void BlockCycle::Run(const CycleFrame& frame, Report* report) {
   sweeps_ = &sweeps;
   steps_.Begin(frame);
   Begin();
+  SoftenStart();
   while (islands_.active()) Round();
   Finish();
+  if (frame.accelerates()) RememberEnds();
   if (frame.learns()) planner_.Learn();
   FillReport(report);
 }
@@ -60,6 +66,25 @@ void BlockCycle::Begin() {
   if (frame_->settings.max_sweeps > 0) return;
   for (int i = 0; i < islands_.count(); ++i) islands_.Stop(i, StopReason::kSweepLimit);
   CloseGroups();
+}
+
+void BlockCycle::SoftenStart() {
+  if (!frame_->accelerates() || frame_->meter->limited()) return;
+  scales_.assign(islands_.count(), 1);
+  bool any = false;
+  for (int i = 0; i < islands_.count(); ++i) {
+    if (!steps_.Overshoots(i)) continue;
+    scales_[i] = kSoftStart;
+    any = true;
+  }
+  if (any) ScaleIslands(frame_->plan(), scales_, frame_->data());
+}
+
+void BlockCycle::RememberEnds() {
+  for (int i = 0; i < islands_.count(); ++i) {
+    const IslandReport& report = islands_.report(i);
+    steps_.EndSolve(i, report.steps_accepted > 0, report.stop != StopReason::kSweepLimit);
+  }
 }
 
 void BlockCycle::GuardStart(int sweeps) {

@@ -32,6 +32,10 @@ class BlockCycle {
 
  private:
   void Begin();
+  /// Scales impulses of the start that sweeps would overshoot from; see BlockSteps::Overshoots().
+  void SoftenStart();
+  /// For the SoftenStart() of the next Solve().
+  void RememberEnds();
   /// Scales impulses of the start that are worse than none where they are judged after so many
   /// sweeps.
   void GuardStart(int sweeps);

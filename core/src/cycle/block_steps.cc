@@ -76,9 +76,11 @@ void BlockSteps::Begin(const CycleFrame& frame) {
   meter_ = frame.meter;
   crew_ = frame.crew;
   asked_ = frame.asks_for_steps();
-  if (!asked_) return;
+  if (!asked_ && !frame.accelerates()) return;
   const Plan& plan = frame.plan();
   memory_of_island_.assign(plan.islands().size(), nullptr);
+  if (plan_number_ != frame_->plan_number()) ReadPlan();
+  if (!asked_) return;
   islands_.assign(plan.islands().size(), {});
   islands_now_.assign(plan.islands().size(), {});
   work_.assign(plan.islands().size(), 0);
@@ -88,7 +90,6 @@ void BlockSteps::Begin(const CycleFrame& frame) {
     float_step_ = std::make_unique<BlockStep<float>>(frame_->target());
     double_step_ = std::make_unique<BlockStep<double>>(frame_->target());
   }
-  if (plan_number_ != frame_->plan_number()) ReadPlan();
   strains_.clear();
   loaded_.clear();
   if (frame.weighs_steps()) FindPull();
@@ -162,6 +163,7 @@ void BlockSteps::ReadPlan() {
 void BlockSteps::ReadIslands() {
   const Plan& plan = frame_->plan();
   keys_.assign(plan.islands().size(), ~std::uint64_t{0});
+  one_direction_.assign(plan.islands().size(), 0);
   set_up_.assign(plan.islands().size(), kSetUpIsland);
   scalar_set_up_.assign(plan.islands().size(), 0);
   for (int b = 0; b < static_cast<int>(plan.blocks().size()); ++b) {
@@ -169,7 +171,11 @@ void BlockSteps::ReadIslands() {
     const bool joints =
         std::any_of(block.rows, block.rows + block.row_count,
                     [](const simd::RowShape& row) { return row.bound == simd::RowBound::kFree; });
+    const auto frictions = std::count_if(block.rows, block.rows + block.row_count,
+                                         [](const simd::RowShape& row) { return row.parent >= 0; });
+    const bool one_direction = frictions > 0 && 2 * frictions == block.row_count;
     ForStretches(plan, b, 0, block.lanes, [&](int island, int lanes) {
+      if (one_direction) one_direction_[island] = 1;
       const int rows = lanes * block.row_count;
       set_up_[island] += rows * (joints ? kSetUpJointRow : kSetUpRow);
       scalar_set_up_[island] += rows * (joints ? kScalarJointRow : kScalarRow);

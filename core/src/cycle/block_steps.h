@@ -82,6 +82,15 @@ class BlockSteps {
   const IslandMotion& after(int island) const { return after_[island]; }
   /// What was charged for it: its share of the group's, by rows.
   double work(int island) const { return work_[island]; }
+  /// See IslandMemory::overshoots(). Contacts with one direction of friction do not.
+  bool Overshoots(int island) {
+    return HasBodies(island) && (HasJoints(island) || one_direction_[island] == 0) &&
+           MemoryOf(island)->overshoots();
+  }
+  /// The Solve() ends so on the island. @pre sweeps are accelerated
+  void EndSolve(int island, bool stepped, bool finished) {
+    if (HasBodies(island)) MemoryOf(island)->EndSolve(stepped, finished);
+  }
   /// A guard undid something on the island.
   void Guarded(int island) { MemoryOf(island)->Guarded(); }
   /// What became of the step.
@@ -93,6 +102,8 @@ class BlockSteps {
   };
   Precisions PrecisionsOf(std::span<const int> islands) const;
   IslandMemory* MemoryOf(int island);
+  /// One of rows that push nothing has none, and no name.
+  bool HasBodies(int island) const { return frame_->plan().islands()[island].first_body >= 0; }
   void ReadPlan();
   /// Finds strains_ and loaded_.
   void FindPull();
@@ -160,6 +171,7 @@ class BlockSteps {
   Array<double> strains_;      ///< by island, none if no body is strained
   Array<char> loaded_;         ///< by island, none if none is
   Array<std::uint64_t> keys_;  ///< by island
+  Array<char> one_direction_;  ///< by island: its contacts have one of friction
   Array<IslandMemory*> memory_of_island_;
   Array<IslandStep> islands_, islands_now_;
   Array<double> work_;    ///< by island

@@ -35,11 +35,10 @@ constexpr double kNear = 10;
 constexpr double kMostThrown = 1;
 /// The same where it is strained: what waits longer parts further.
 constexpr double kMostThrownStrained = 3;
-/// Errors of contacts that let heavy loads fall where sweeps leave them in frame after frame [m/s]
-/// or [rad/s]: what gravity adds in a step at 60 Hz. Islands of so many bodies then take steps that
-/// pay whatever they cost in terms of row by row, which is microseconds.
+/// Errors that let heavy loads fall and beams of joints bend where sweeps leave them in frame after
+/// frame [m/s] or [rad/s]: what gravity adds in a step at 60 Hz. Islands of few bodies then take
+/// steps that pay whatever they cost in terms of row by row, which is microseconds.
 constexpr double kGross = 0.15;
-constexpr int kGrossBodies = 20;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
@@ -163,7 +162,7 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const double scalar = steps_->ScalarAlone(i, sweeps), rest = steps_->RestAlone(i, sweeps);
   const double left = of_scalar * scalar - rest;
   const double of_more = strained ? kMostOfScalarWithMoreStrained : kMostOfScalarWithMore;
-  const bool gross = !joints && bodies <= kGrossBodies && odds.stays_gross();
+  const bool gross = bodies <= StepOdds::kFewBodies && odds.stays_gross();
   const double most_price = strained || gross ? of_rest : std::min(of_rest, left);
   const int condensing = !strained && steps_->CondensesJoints(i) ? 1 : 0;
   const auto fits = [&](int factorisations) {

@@ -61,6 +61,11 @@ bool IslandMemory::Due(const Settings& settings) {
   return false;
 }
 
+void IslandMemory::EndSolve(bool stepped, bool finished) {
+  unfinished_ = !finished;
+  stepping_ = stepped ? std::min(stepping_ + kOfStep, kMostStepping) : std::max(stepping_ - 1, 0);
+}
+
 void IslandMemory::Postpone() { pause_ = kPriceAgain; }
 
 template <>

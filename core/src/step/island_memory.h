@@ -47,6 +47,13 @@ class IslandMemory : public detail::Placed {
   /// or it would never get a step again.
   bool pays_for_condensing() const { return condenses_joints() && joints_answered_; }
 
+  /// The last Solve() left the island unfinished, and steps are rare: what accelerated sweeps add
+  /// to the impulses of the start then comes late, and goes too far.
+  bool overshoots() const { return unfinished_ && stepping_ <= kOfStep; }
+  /// @param stepped   a step was kept
+  /// @param finished  sweeps did not end at their limit
+  void EndSolve(bool stepped, bool finished);
+
   /// The last factor that was priced here.
   const FactorSize& factor_size() const { return factor_size_; }
   void Remember(const FactorSize& size) { factor_size_ = size; }
@@ -62,6 +69,8 @@ class IslandMemory : public detail::Placed {
 
  private:
   static constexpr int kLeastJointPause = 60;
+  /// A step counts for so many frames without one, and all of late for at most so many.
+  static constexpr int kOfStep = 8, kMostStepping = 60;
 
   std::shared_ptr<BodySystem> body_system_;
   std::unique_ptr<BlockSystem<float>> float_system_;
@@ -78,6 +87,8 @@ class IslandMemory : public detail::Placed {
   /// How much is done about redundant joints, steps in a row without need for it, and steps until
   /// they are looked at again.
   int joint_level_ = 0, calm_steps_ = 0, joint_pause_ = 0, joint_pause_next_ = kLeastJointPause;
+  bool unfinished_ = false;       ///< when the last Solve() ended
+  int stepping_ = 0;              ///< 0 where there were no steps of late, kMostStepping: many
   bool joints_answered_ = false;  ///< a step has condensed them since the level was 0
 };
 

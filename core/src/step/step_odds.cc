@@ -21,6 +21,8 @@ constexpr int kMeasureAgain = 64;
 /// to begin with steps, and for those that have them to go on. Steps gain less on arches and
 /// dominoes, more on towers, bridges and chains.
 constexpr double kBegins = 3, kGoesOn = 2.4;
+/// The same for small stacks: steps that come and go keep those rocking.
+constexpr double kSmallBegins = 2, kSmallGoesOn = 1.6;
 /// What that ratio is taken to be at least and at most, so that a contact that came in one frame
 /// does not outweigh many others.
 constexpr double kLeastRatio = 1, kMostRatio = 30;
@@ -61,7 +63,7 @@ void StepOdds::LearnStep(int steps, double share) {
   Learn(std::clamp(-Log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
 }
 
-void StepOdds::LearnGains(double with_step, double alone) {
+void StepOdds::LearnGains(double with_step, double alone, bool small) {
   carries_ = with_step > kCarries * alone;
   const double ratio = with_step <= kLeastRatio * std::max(alone, 0.0) ? kLeastRatio
                        : with_step >= kMostRatio * alone               ? kMostRatio
@@ -69,7 +71,10 @@ void StepOdds::LearnGains(double with_step, double alone) {
   const bool first = trials_ == 0;
   if (trials_ < kEqualTrials) ++trials_;
   ratio_ += (Log(ratio) - ratio_) / trials_;
-  pays_ = ratio_ > Log(pays_ && !first ? kGoesOn : kBegins);
+  const bool goes_on = pays_ && !first;
+  const double least =
+      small ? (goes_on ? kSmallGoesOn : kSmallBegins) : (goes_on ? kGoesOn : kBegins);
+  pays_ = ratio_ > Log(least);
   // what is piled up now, or begins to sag, asks for steps soon
   trial_pause_ = pays_ ? kPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
   trial_age_ = 0;

@@ -11,6 +11,9 @@ namespace cairn {
 /// it costs what the last ones would have done, for which the budget does not suffice any more.
 class StepOdds {
  public:
+  /// Islands of so many bodies are small: steps there take microseconds.
+  static constexpr int kFewBodies = 20;
+
   /// How many times the price of a step has to be left of the budget for it to pay, if the sweeps
   /// that were made before it are added to what is left; infinite if it never does.
   /// @param gain  cut() / power()
@@ -24,7 +27,8 @@ class StepOdds {
   void LearnStep(int steps, double share);
   /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
   /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
-  void LearnGains(double with_step, double alone);
+  /// @param small  of contacts, and of few bodies
+  void LearnGains(double with_step, double alone, bool small);
   /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }
