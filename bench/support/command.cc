@@ -7,7 +7,11 @@ namespace cairn::cli {
 
 void AddText(CLI::App* app, const char* name, std::string* text, const char* help,
              const char* type) {
-  app->add_option(name, *text, help)->type_name(type)->take_last();
+  const auto is_there = [](const std::string& word) {
+    return word.empty() ? std::string("is empty") : std::string();
+  };
+  // a check of the name that help shows would be shown in it
+  app->add_option(name, *text, help)->type_name(type)->take_last()->check(is_there);
 }
 
 void AddOutputWords(CLI::App* app, OutputWords* words) {

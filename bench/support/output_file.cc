@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <system_error>
 
@@ -25,6 +26,21 @@ void RefuseIf(const std::error_code& error, const std::string& path) {
 }  // namespace
 
 void CheckWritable(const std::string& path) { RefuseIf(TryWholeFile(path), path); }
+
+void CheckWritable(std::span<const std::string> paths) {
+  std::set<std::filesystem::path> files;
+  for (const std::string& path : paths) {
+    if (path.empty()) continue;
+    CheckWritable(path);
+    std::error_code error;
+    const bool is_device =
+        std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error);
+    if (is_device) continue;
+    if (!files.insert(std::filesystem::weakly_canonical(path, error)).second) {
+      throw Failure(kUsage, fmt::format("'{}' is written to twice: give each file a name", path));
+    }
+  }
+}
 
 void CheckFolder(const std::string& folder) {
   std::error_code error;

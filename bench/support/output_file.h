@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,10 @@ namespace cairn::cli {
 /// @throws Failure (kBadInput) if the file cannot be written; asked before a long run, so that its
 /// results are not lost after it. Leaves an existing file as it is.
 void CheckWritable(const std::string& path);
+
+/// The same of all that are not empty. @throws Failure (kUsage) if two are the same file, of which
+/// only the last would be left.
+void CheckWritable(std::span<const std::string> paths);
 
 /// Makes the folder, if need be. @throws Failure (kBadInput) if nothing can be written there; asked
 /// before a long run.
@@ -26,9 +31,9 @@ struct ResultFile {
 
 template <class Result>
 void CheckWritable(const std::vector<ResultFile<Result>>& files) {
-  for (const ResultFile<Result>& file : files) {
-    if (!file.path.empty()) CheckWritable(file.path);
-  }
+  std::vector<std::string> paths;
+  for (const ResultFile<Result>& file : files) paths.push_back(file.path);
+  CheckWritable(paths);
 }
 
 template <class Result>

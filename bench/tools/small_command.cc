@@ -84,9 +84,7 @@ SmallOptions Check(const SmallWords& words) {
 int DoSmall(const SmallWords& words, const std::string& command) {
   const SmallOptions options = Check(words);
   Apply(options.setup);
-  for (const std::string& path : {words.json, words.markdown}) {
-    if (!path.empty()) CheckWritable(path);
-  }
+  CheckWritable(std::vector{words.json, words.markdown});
   const RunContext context = DescribeContext(command);
   const std::vector<SmallResult> worlds = RunSmall(options);
   std::vector<TextTable> tables;

@@ -221,13 +221,18 @@ static void RefusesBadProblems(void) {
   Refused(solver, &scene, cairnNotFinite, "body 1: velocity.linear is nan, must be finite");
   MakeScene(&scene);
   scene.problem.points = NULL;
-  Refused(solver, &scene, cairnNullPointer, "null");
+  Refused(solver, &scene, cairnNullPointer, "points is null, where pointCount is ");
   MakeScene(&scene);
   scene.solution.jointRows = NULL;
-  Refused(solver, &scene, cairnNullPointer, "null");
+  Refused(solver, &scene, cairnNullPointer,
+          "jointRows of the solution is null, where jointRowCount is ");
+  MakeScene(&scene);
+  scene.problem.pointCount = 0;
+  scene.problem.twistCount = -5;
+  Refused(solver, &scene, cairnWrongSize, "twistCount is -5, must be at least 0");
   MakeScene(&scene);
   scene.problem.jointCount = -1;
-  Refused(solver, &scene, cairnWrongSize, "do not fit");
+  Refused(solver, &scene, cairnWrongSize, "jointCount is -1, must be at least 0");
   MakeScene(&scene);
   scene.manifold.firstPoint = 1;
   Refused(solver, &scene, cairnWrongSize, "manifold 0");
@@ -240,7 +245,7 @@ static void RefusesBadProblems(void) {
   Refused(solver, &scene, cairnWrongSize, "manifold 0");
   MakeScene(&scene);
   scene.problem.jointCount = -1;
-  Refused(solver, &scene, cairnWrongSize, "do not fit");
+  Refused(solver, &scene, cairnWrongSize, "jointCount is -1, must be at least 0");
   int32_t count = 7;
   CHECK(cairnIslandOf(solver, &count) == NULL && count == 0);
   MakeScene(&scene);
@@ -257,6 +262,10 @@ static void FindsWhatCannotBeMeant(void) {
   MakeScene(&scene);
   char text[200];
   CHECK(cairnValidateStrictly(&scene.problem, &scene.solution, text, sizeof text) == 0);
+  scene.solution.velocities = NULL;
+  cairnValidateStrictly(&scene.problem, &scene.solution, text, sizeof text);
+  CHECK(strcmp(text, "velocities is null, where bodyCount is 2\n") == 0);
+  MakeScene(&scene);
   scene.points[2].normal[1] = 2;
   cairnValidateStrictly(&scene.problem, &scene.solution, text, sizeof text);
   CHECK(strcmp(text, "points[2].normal is (0, 2, 0), must be a unit vector\n") == 0);

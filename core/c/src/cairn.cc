@@ -53,6 +53,7 @@ struct CairnSolver : detail::Placed {
   Array<Body> bodies;
   Array<Velocity> velocities;
   Report report;
+  c::Misfit misfit;                   ///< of the last step, where it got no further
   CairnStatus last = cairnOk;         ///< what came of the last step
   bool reported = true;               ///< report is of that step: it got as far as Solve()
   std::optional<Recording> recorded;  ///< one that is solved, with its start
@@ -115,11 +116,12 @@ template <class BodyOfC, class VelocityOfC>
 CairnStatus Solve(CairnSolver* solver, const CairnProblem& problem, const BodyOfC* bodies,
                   const CairnSolution& solution, VelocityOfC* velocities, CairnReport* report) {
   solver->reported = false;
+  solver->misfit = {};
   const CairnStatus status = c::Guarded([&] {
     c::View view;
-    const CairnStatus looked = c::Look(problem, bodies, solution, &solver->bodies, &view);
+    const CairnStatus looked =
+        c::Look(problem, bodies, solution, velocities, &solver->bodies, &view, &solver->misfit);
     if (looked != cairnOk) return Refuse(looked, report);
-    if (velocities == nullptr && problem.bodyCount > 0) return Refuse(cairnNullPointer, report);
     const bool recording = solver->recorder.Begin(view.problem, view.impulses);
     const CairnStatus solved = Run(view, solver, report);
     if (solved == cairnOk) c::CopyVelocities(solver->velocities, velocities);
@@ -293,7 +295,13 @@ CairnStatus cairnSolveD(CairnSolver* solver, const CairnProblem* problem, const 
 size_t cairnDescribeReport(const CairnSolver* solver, char* text, size_t size) {
   return c::Say(text, size, [&](std::string* said) {
     if (solver == nullptr) return cairnNullPointer;
-    *said = solver->reported ? Describe(solver->report) : cairnDescribe(solver->last);
+    if (solver->reported) {
+      *said = Describe(solver->report);
+    } else if (solver->misfit.counted != nullptr) {
+      *said = c::Describe(solver->misfit);
+    } else {
+      *said = cairnDescribe(solver->last);
+    }
     return cairnOk;
   });
 }
@@ -319,9 +327,14 @@ size_t cairnValidateStrictly(const CairnProblem* problem, const CairnSolution* s
     if (problem == nullptr || solution == nullptr) return cairnNullPointer;
     Array<Body> bodies;
     c::View view;
-    const CairnStatus looked = c::Look(*problem, problem->bodies, *solution, &bodies, &view);
-    if (looked != cairnOk) return looked;
-    c::AppendFindings(view.problem, view.impulses, said);
+    c::Misfit misfit;
+    const CairnStatus looked = c::Look(*problem, problem->bodies, *solution, solution->velocities,
+                                       &bodies, &view, &misfit);
+    if (looked == cairnOk) {
+      c::AppendFindings(view.problem, view.impulses, said);
+    } else {
+      *said = c::Describe(misfit) + "\n";
+    }
     return cairnOk;
   });
 }
@@ -367,6 +380,7 @@ int32_t cairnRecordingBodies(const CairnRecording* recording) {
 CairnStatus cairnSolveRecording(CairnSolver* solver, const CairnRecording* recording,
                                 CairnVelocity* velocities, CairnReport* report) {
   if (solver == nullptr || recording == nullptr) return Refuse(cairnNullPointer, report);
+  solver->misfit = {};
   solver->reported = false;
   const CairnStatus status = c::Guarded([&] {
     solver->recorded = recording->recording;

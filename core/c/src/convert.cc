@@ -185,20 +185,40 @@ void CopyVelocities(std::span<const Velocity> from, VelocityOfC* to) {
 template void CopyVelocities(std::span<const Velocity> from, CairnVelocity* to);
 template void CopyVelocities(std::span<const Velocity> from, CairnVelocityD* to);
 
+std::string Describe(const Misfit& misfit) {
+  const std::string count = std::string(misfit.counted) + " is " + std::to_string(misfit.count);
+  if (misfit.array == nullptr) return count + ", must be at least 0";
+  return std::string(misfit.array) + " is null, where " + count;
+}
+
 template <class BodyOfC>
 CairnStatus Look(const CairnProblem& from, const BodyOfC* bodies, const CairnSolution& solution,
-                 Array<Body>* copies, View* view) {
-  const std::int32_t counts[] = {from.bodyCount,  from.manifoldCount, from.pointCount,
-                                 from.twistCount, from.jointCount,    from.jointRowCount};
-  if (*std::min_element(std::begin(counts), std::end(counts)) < 0) return cairnWrongSize;
-  const auto missing = [](std::int32_t count, const auto*... arrays) {
-    return count > 0 && (... || (arrays == nullptr));
+                 const void* velocities, Array<Body>* copies, View* view, Misfit* misfit) {
+  struct Counted {
+    const char* name;
+    std::int32_t count;
+    const char* array;
+    const void* at;
   };
-  if (missing(from.bodyCount, bodies) || missing(from.manifoldCount, from.manifolds) ||
-      missing(from.pointCount, from.points, solution.points) ||
-      missing(from.twistCount, from.twists, solution.twists) ||
-      missing(from.jointCount, from.joints) ||
-      missing(from.jointRowCount, from.jointRows, solution.jointRows)) {
+  const Counted all[] = {
+      {"bodyCount", from.bodyCount, "bodies", bodies},
+      {"manifoldCount", from.manifoldCount, "manifolds", from.manifolds},
+      {"pointCount", from.pointCount, "points", from.points},
+      {"twistCount", from.twistCount, "twists", from.twists},
+      {"jointCount", from.jointCount, "joints", from.joints},
+      {"jointRowCount", from.jointRowCount, "jointRows", from.jointRows},
+      {"bodyCount", from.bodyCount, "velocities", velocities},
+      {"pointCount", from.pointCount, "points of the solution", solution.points},
+      {"twistCount", from.twistCount, "twists of the solution", solution.twists},
+      {"jointRowCount", from.jointRowCount, "jointRows of the solution", solution.jointRows}};
+  for (const Counted& c : all) {
+    if (c.count >= 0) continue;
+    *misfit = {.array = nullptr, .counted = c.name, .count = c.count};
+    return cairnWrongSize;
+  }
+  for (const Counted& c : all) {
+    if (c.count == 0 || c.at != nullptr) continue;
+    *misfit = {.array = c.array, .counted = c.name, .count = c.count};
     return cairnNullPointer;
   }
   CopyBodies(std::span(bodies, static_cast<size_t>(from.bodyCount)), copies);
@@ -216,10 +236,10 @@ CairnStatus Look(const CairnProblem& from, const BodyOfC* bodies, const CairnSol
   return cairnOk;
 }
 
-template CairnStatus Look(const CairnProblem&, const CairnBody*, const CairnSolution&, Array<Body>*,
-                          View*);
-template CairnStatus Look(const CairnProblem&, const CairnBodyD*, const CairnSolution&,
-                          Array<Body>*, View*);
+template CairnStatus Look(const CairnProblem&, const CairnBody*, const CairnSolution&, const void*,
+                          Array<Body>*, View*, Misfit*);
+template CairnStatus Look(const CairnProblem&, const CairnBodyD*, const CairnSolution&, const void*,
+                          Array<Body>*, View*, Misfit*);
 
 std::size_t PutText(std::string_view text, char* to, std::size_t size) {
   if (to != nullptr && size > 0) {

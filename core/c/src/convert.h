@@ -48,11 +48,20 @@ struct View {
   ContactProblem problem;
   Impulses impulses;
 };
-/// cairnOk, or what is wrong with counts and pointers.
-/// @param bodies  of the problem, CairnBody or CairnBodyD, copied to @p copies
+/// A count that is below 0, or an array that is null though it has one above.
+struct Misfit {
+  const char* array = nullptr;    ///< none where the count itself is wrong
+  const char* counted = nullptr;  ///< name of the count, none if all is well
+  std::int32_t count = 0;
+};
+std::string Describe(const Misfit& misfit);
+
+/// cairnOk, or what is wrong with counts and pointers: the first such to @p misfit.
+/// @param bodies      of the problem, CairnBody or CairnBodyD, copied to @p copies
+/// @param velocities  where those of bodies are to go
 template <class BodyOfC>
 CairnStatus Look(const CairnProblem& problem, const BodyOfC* bodies, const CairnSolution& solution,
-                 Array<Body>* copies, View* view);
+                 const void* velocities, Array<Body>* copies, View* view, Misfit* misfit);
 
 /// What snprintf does with "%s".
 std::size_t PutText(std::string_view text, char* to, std::size_t size);

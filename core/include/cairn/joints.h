@@ -66,7 +66,7 @@ struct JointGear {
 /// time step; w = dC/dt):
 ///   held:    w = -erp (C - lo) / h;
 ///   limit:   the nearer one: w >= (lo - C) / h where there is room, erp (lo - C) / h where not;
-///   motor:   w = speed, as far as an impulse of +-h max_motor_force does it;
+///   motor:   w = speed, or what limits leave of it, by an impulse within +-h max_motor_force;
 ///   spring:  an implicit step of it, within +-h max_spring_force: as soft contacts in contacts.h.
 class Joints {
  public:

@@ -25,11 +25,13 @@ LcpResidual Measure(const BoxedLcp& problem, const Eigen::VectorXd& x) {
     const double d = diagonal[i], q = problem.q[i], w = mx[i] + q;
     const double lo = problem.lo[i], hi = problem.hi[i];
 
-    const double e = d * std::abs(x[i] - std::clamp(x[i] - w / d, lo, hi));
+    // x - clamp(x - w, lo, hi) in which a small w beside a large x is not lost
+    const double below = x[i] - lo, above = x[i] - hi;
+    const double e = d * std::abs(std::clamp(w / d, above, below));
     residual.max = std::max(residual.max, e);
     energy2 += e * e / d;
     q_energy2 += q * q / d;
-    const double natural = x[i] - std::clamp(x[i] - w, lo, hi);
+    const double natural = std::clamp(w, above, below);
     natural2 += natural * natural;
 
     residual.violation = std::max({residual.violation, lo - x[i], x[i] - hi});

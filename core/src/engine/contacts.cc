@@ -77,10 +77,15 @@ Contacts::Contacts(const ContactOptions& options, Memory* memory)
       kept_(memory) {}
 
 void Contacts::Begin(const StepInput& step) {
+  const auto share = static_cast<float>(ShareOfStart(step_.time_step, step.time_step));
   kept_.reserve(keys_.size());
   kept_.clear();
   for (size_t i = 0; i < keys_.size(); ++i) {
-    if (keys_[i].id != 0) kept_.push_back({keys_[i], static_cast<int>(i), impulses_[i]});
+    if (keys_[i].id == 0) continue;
+    ContactImpulse start = impulses_[i];
+    start.normal *= share;
+    for (float& tangential : start.tangential) tangential *= share;
+    kept_.push_back({keys_[i], static_cast<int>(i), start});
   }
   // of two with one name the first counts; a stable sort would allocate
   std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {

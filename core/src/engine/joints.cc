@@ -89,6 +89,8 @@ void Joints::Begin(const StepInput& step) {
     return a.id != b.id ? a.id < b.id : a.first < b.first;
   });
   kept_impulses_.swap(impulses_);
+  const auto share = static_cast<float>(ShareOfStart(step_.time_step, step.time_step));
+  for (float& impulse : kept_impulses_) impulse *= share;
   step_ = step;
   gap_ = angle_ = {};
   joints_.clear();
@@ -189,8 +191,12 @@ void Joints::AddAxis(const JointAxis& axis, const Direction& direction, double p
     row->lo = static_cast<float>(lo);
     row->hi = static_cast<float>(hi);
   };
+  // a motor that is strong enough would fight the limits, and win
+  double least = -kInfinity, most = kInfinity;
   if (axis.lo == axis.hi) {
-    TakeBack(position - axis.lo, &AddRow(direction));
+    JointRow& row = AddRow(direction);
+    TakeBack(position - axis.lo, &row);
+    least = most = row.target;
   } else if (axis.lo > -kInfinity || axis.hi < kInfinity) {
     const bool lower = position - axis.lo <= axis.hi - position;
     const double to_limit = (lower ? axis.lo : axis.hi) - position;
@@ -202,10 +208,12 @@ void Joints::AddAxis(const JointAxis& axis, const Direction& direction, double p
       TakeBack(-to_limit, &row);
     }
     lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
+    least = lower ? row.target : (axis.lo - position) / h;
+    most = lower ? (axis.hi - position) / h : row.target;
   }
   if (axis.max_motor_force > 0) {
     JointRow& row = AddRow(direction);
-    row.target = static_cast<float>(axis.speed);
+    row.target = static_cast<float>(std::min(std::max(axis.speed, least), most));
     bound(-h * axis.max_motor_force, h * axis.max_motor_force, &row);
   }
   if (axis.frequency > 0) {

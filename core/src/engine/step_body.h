@@ -37,6 +37,12 @@ inline double Mobility(const StepInput& step, int body, const HalfRow& row) {
          row.angular.dot(View(b.inv_inertia) * row.angular);
 }
 
+/// What impulses of the last step are multiplied by to begin one of another length: what holds a
+/// load does it with a force.
+inline double ShareOfStart(double last_time_step, double time_step) {
+  return last_time_step > 0 && time_step > 0 ? time_step / last_time_step : 1;
+}
+
 /// An implicit step of a spring and damper between bodies of J M^-1 J' = @p mobility.
 struct SoftRow {
   double share;       ///< of the error that the step takes back

@@ -28,7 +28,7 @@ class StepOdds {
   /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
   /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
   /// @param small  of contacts, and of few bodies
-  void LearnGains(double with_step, double alone, bool small);
+  void LearnGains(double with_step, double alone, bool small = false);
   /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }

@@ -110,6 +110,8 @@ class SmallTest(CairnTest):
                                 (["--frames", "10", "--warmup", "10"], "--warmup"),
                                 (["--samples", "-1"], "--samples"),
                                 (["--simd", "mmx"], "simd"),
+                                (["--json", ""], "--json"),
+                                (["--json", self.path("x"), "--markdown", self.path("./x")], "written to twice"),
                                 (["--frmes", "3"], "--frames"),
                                 (["--seeds", "5"], "FROM:TO"),
                                 (["--seeds", "5:5"], "there are none"),

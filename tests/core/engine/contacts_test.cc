@@ -230,6 +230,22 @@ TEST(Contacts, StartFromWhatTheSameFeatureExerted) {
   EXPECT_EQ(contacts.impulses()[3].normal, 1);
 }
 
+TEST(Contacts, StartALongerStepFromMore) {
+  const std::array bodies{Body{.inv_mass = 1}};
+  const Touch touch{.body_a = 0, .friction = 1, .id = 7};
+  Contacts contacts;
+  contacts.Begin({bodies, 0.01});
+  contacts.Add(touch, std::array{TouchPoint{.feature = 1}});
+  contacts.impulses()[0].normal = 2;
+  contacts.impulses()[0].tangential[1] = 3;
+  contacts.impulses()[0].heading = 4;
+  contacts.Begin({bodies, 0.005});
+  contacts.Add(touch, std::array{TouchPoint{.feature = 1}});
+  EXPECT_FLOAT_EQ(contacts.impulses()[0].normal, 1);
+  EXPECT_FLOAT_EQ(contacts.impulses()[0].tangential[1], 1.5f);
+  EXPECT_EQ(contacts.impulses()[0].heading, 4);
+}
+
 TEST(Contacts, LeaveOutWhatIsFarAndCutWhatIsMany) {
   const std::array bodies{Body{.inv_mass = 1}};
   Contacts contacts;

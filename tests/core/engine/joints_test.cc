@@ -169,6 +169,25 @@ TEST(Joints, LimitsStopBothWays) {
   }
 }
 
+// A limit and a motor that asks for more than it leaves have no solution: both pulled at the joint.
+TEST(Joints, MotorsWithoutALimitOfTheirOwnStopAtLimits) {
+  for (const double speed : {2.0, -2.0, 100.0}) {
+    const JointAxis axis{.lo = -0.5, .hi = 0.75, .speed = speed, .max_motor_force = kInfinity};
+    const double end = speed > 0 ? 0.75 : -0.5;
+    const SmallWorld hinge = Drive(HingeJoint(axis), {0, 0, 0}, 120);
+    EXPECT_NEAR(AngleAboutX(hinge.things[0]), end, 1e-4) << speed;
+    const SmallWorld slider = Drive(SliderJoint(axis), {0, 0, 0}, 120);
+    EXPECT_NEAR(slider.things[0].position.x(), end, 1e-4) << speed;
+  }
+  // from beyond the limit it comes back as without a motor
+  SmallWorld world;
+  world.gravity = 0;
+  world.things.push_back({.position = {1, 0, 0}});
+  const JointAxis axis{.hi = 0.5, .speed = 3, .max_motor_force = kInfinity};
+  world.Step([&axis](SmallWorld* w) { Hold(SliderJoint(axis), Vector3d::Zero(), w); });
+  EXPECT_NEAR(world.things[0].position.x(), 0.9, 1e-6);
+}
+
 TEST(Joints, LimitsTakeBackWhatIsBeyondThem) {
   SmallWorld world;
   world.gravity = 0;
@@ -482,6 +501,17 @@ TEST(Joints, StartFromWhatTheyExerted) {
   EXPECT_EQ(joints.impulses_of(0)[0], 0);
   EXPECT_EQ(joints.impulses_of(1)[2], 3);
   EXPECT_EQ(joints.impulses_of(2)[2], 0);
+}
+
+TEST(Joints, StartALongerStepFromMore) {
+  Joints joints;
+  const std::array bodies{Body{.inv_mass = 1, .inv_inertia = Eigen::Matrix3d::Identity()}};
+  joints.Begin({bodies, 0.01});
+  joints.Add(BallJoint(), {.body = 0}, {}, 3);
+  joints.impulses()[1] = 2;
+  joints.Begin({bodies, 0.03});
+  joints.Add(BallJoint(), {.body = 0}, {}, 3);
+  EXPECT_FLOAT_EQ(joints.impulses_of(0)[1], 6);
 }
 
 TEST(Joints, ThatHoldNothingAreNone) {

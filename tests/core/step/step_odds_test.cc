@@ -150,6 +150,16 @@ TEST(StepOdds, PayWhereSweepsInTheirPlaceGainLess) {
   EXPECT_FALSE(odds.pays()) << "2.0";
 }
 
+TEST(StepOdds, PayEarlierInSmallStacks) {
+  StepOdds odds;
+  odds.LearnGains(2.5, 1, true);
+  EXPECT_TRUE(odds.pays());
+  odds.LearnGains(1.2, 1, true);
+  EXPECT_TRUE(odds.pays()) << "1.7 on average";
+  odds.LearnGains(1, 1, true);
+  EXPECT_FALSE(odds.pays()) << "1.4";
+}
+
 TEST(StepOdds, PayWhereSweepsAloneDoHarm) {
   StepOdds odds;
   odds.LearnGains(1, -1);

@@ -41,9 +41,9 @@ Barrier::Barrier(LcpState* state, SparseCholesky* factor, const Eigen::VectorXd&
 
   // how far from its law the worst row is, in the square root of the unit of x w
   const Eigen::VectorXd w = state->Slack(start);
-  Eigen::VectorXd natural = start - w.cwiseQuotient(d);
-  Clamp(problem, &natural);
-  const double worst = LargestWhere((start - natural).cwiseProduct(d), d);
+  const Eigen::VectorXd natural =
+      w.cwiseQuotient(d).cwiseMin(start - problem.lo).cwiseMax(start - problem.hi);
+  const double worst = LargestWhere(natural.cwiseProduct(d), d);
   inside_ = std::max({worst, kInside * LargestWhere(w, d), 1e-300});
 
   for (Eigen::Index i = 0; i < start.size(); ++i) {
