@@ -46,8 +46,8 @@ Command AddDoctor(CLI::App* app) {
   AddText(doctor, "--json", &words->json, "Write the same as JSON", "FILE");
   doctor->add_flag("--bullet", words->only_bullet, "Only the Bullet that this program runs with");
   doctor->add_flag("--verify", words->verify,
-                   "Whether 41 worlds and matrices of the core and 104 worlds of Bullet come out "
-                   "here as everywhere, to the bit (15 s)");
+                   "Whether worlds and matrices of the core and worlds of Bullet come out here as "
+                   "everywhere, to the bit (15 s)");
   doctor->add_flag("--verify-worlds", words->verify_worlds)->group("");
   return {doctor, [words](const std::string&) -> int {
             if (words->verify) return DoctorVerify();

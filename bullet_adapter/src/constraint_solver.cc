@@ -197,7 +197,8 @@ SubstepTimes ConstraintSolver::times() const { return impl_->times; }
 bool ConstraintSolver::fell_back() const { return impl_->fell_back; }
 
 std::string ConstraintSolver::complaint() const {
-  return impl_->report.ok() ? impl_->refused : Describe(impl_->report);
+  if (!impl_->report.ok()) return Describe(impl_->report);
+  return impl_->refused.empty() ? recorded().last_failure : impl_->refused;
 }
 
 void ConstraintSolver::Warn(btIDebugDraw* debug_drawer) {

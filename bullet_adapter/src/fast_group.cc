@@ -38,8 +38,9 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   }
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
-  // what holds a load in a step holds it for twice as long with twice the impulse
-  const btScalar longer = last_step > 0 ? time_step_ / last_step : btScalar(1);
+  // what holds a load in a step holds it for twice as long with twice the impulse; what stops a
+  // blow in a short one does not go on
+  const btScalar longer = last_step > 0 ? btMin(btScalar(10), time_step_ / last_step) : btScalar(1);
   const btScalar factor = warm ? info.m_warmstartingFactor * longer : btScalar(0);
   joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0),
                       group.units_per_metre, &group_);

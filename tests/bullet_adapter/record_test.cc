@@ -147,6 +147,7 @@ TEST(RecordedWorld, IsTheSameWorld) {
   EXPECT_EQ(solver.recorded().written, 0);
   EXPECT_EQ(solver.recorded().failed, 1);
   EXPECT_THAT(solver.recorded().last_failure, HasSubstr(folder));
+  EXPECT_EQ(solver.complaint(), solver.recorded().last_failure);
 }
 
 TEST(RecordedWorld, MayBeOneOfBulletsOwnRows) {

@@ -60,10 +60,10 @@ static void AHingeTurnsByItsMotorToItsLimit(void) {
   a = SideOf(&world, 0, 0, 0, 0);
   CHECK(fabs(cairnTwistOf(&a, &b) - 1.5) < 1e-2);
   CHECK(Length(world.things[0].position, kNowhere) < 1e-2);
-  /* by hand: 50 N m for a step, against the limit */
+  /* the motor does not push against the limit */
   CHECK(world.problem.jointRowCount == 7);
   const float* impulses = world.solution.jointRows;
-  CHECK(fabs(impulses[5] + impulses[6]) < 1e-3 && fabs(impulses[6] - 50 / 60.0) < 1e-3);
+  CHECK(fabs(impulses[5]) < 1e-3 && fabs(impulses[6]) < 1e-3);
   FreeWorld(&world);
 }
 

@@ -2,6 +2,8 @@
 // How bodies of a step move, and how hard they are to move, along a row.
 #pragma once
 
+#include <algorithm>
+
 #include "cairn/contacts.h"
 #include "cairn/detail/eigen.h"
 
@@ -38,9 +40,10 @@ inline double Mobility(const StepInput& step, int body, const HalfRow& row) {
 }
 
 /// What impulses of the last step are multiplied by to begin one of another length: what holds a
-/// load does it with a force.
+/// load does it with a force. At most 10, as what stops a blow in a short step does not go on.
 inline double ShareOfStart(double last_time_step, double time_step) {
-  return last_time_step > 0 && time_step > 0 ? time_step / last_time_step : 1;
+  if (!(last_time_step > 0 && time_step > 0)) return 1;
+  return std::min(10.0, time_step / last_time_step);
 }
 
 /// An implicit step of a spring and damper between bodies of J M^-1 J' = @p mobility.

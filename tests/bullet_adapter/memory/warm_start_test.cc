@@ -49,14 +49,15 @@ constexpr int kCached = SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
 
 class FrictionWithMode : public testing::TestWithParam<int> {};
 
-// a tenth and less with one box, half with two: by then the rest comes from the normals
+// A third and less with one box. With two what creeps comes from the normals: by about 1 mm, 6 mm
+// with Bullet.
 TEST_P(FrictionWithMode, CreepsLessFromTheImpulsesOfTheSubstepBefore) {
-  for (const Stack& stack : {Stack{1, 1}, Stack{2, 10}}) {
-    // contacts that become gentle sink in, and creep meanwhile
-    const bullet::Options warm{.resting_slop = false},
-        cold{.warm_start_friction = false, .resting_slop = false};
-    EXPECT_LT(Creep(stack, warm, kWarm | GetParam()), 0.7 * Creep(stack, cold, kWarm | GetParam()));
-  }
+  // contacts that become gentle sink in, and creep meanwhile
+  const bullet::Options warm{.resting_slop = false},
+      cold{.warm_start_friction = false, .resting_slop = false};
+  const int mode = kWarm | GetParam();
+  EXPECT_LT(Creep({1, 1}, warm, mode), 0.7 * Creep({1, 1}, cold, mode));
+  EXPECT_LT(Creep({2, 10}, warm, mode), 0.002);
 }
 
 TEST_P(FrictionWithMode, StartsColdWithoutWarmStartsInTheSolverMode) {

@@ -59,7 +59,7 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// Left to Mode::kReference, or from there to Bullet's iteration: a setting out of its range, a
   /// Solve() refused; or islands, of which report() says nothing, with joints not of Bullet's.
   bool fell_back() const;
-  /// What is wrong, for people: "threads is 0, must be 1 to 1024". Empty if nothing.
+  /// What is wrong, or was not recorded: "threads is 0, must be 1 to 1024". Empty if nothing.
   std::string complaint() const;
   /// The problem that report() is about, and the impulses that solve it, one per row: joints first,
   /// in the order in which Bullet hands them over, then contacts, those in manifolds last. Valid
