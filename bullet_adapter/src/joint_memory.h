@@ -19,7 +19,7 @@ inline namespace CAIRN_BULLET_PRECISION {
 class JointMemory {
  public:
   /// Begins a group; the applied impulses of the joints must be as the last group left them.
-  /// @param factor  of the start, in [0, 1]; 0 starts cold.
+  /// @param factor  of the start, at least 0, which starts cold
   /// @param units_per_metre  see Tuning: rows are as alike in metres
   /// @param group   has the last one, which is taken away; is left empty
   void Begin(std::span<btTypedConstraint* const> joints, btScalar factor, double units_per_metre,
