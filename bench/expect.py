@@ -3,7 +3,7 @@
 
     python3 bench/expect.py build/release/bin/cairn
 
-Three minutes on a quiet machine. Worlds are as Bullet makes them, with one direction of friction at a contact; the
+Four minutes. Worlds are as Bullet makes them, with one direction of friction at a contact; the
 last column of the first table has times with two. Both solvers make ten iterations."""
 import json
 import os

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The full report: scenes under budgets of 0.5, 2, 4 and 16 ms, a page for each, and the table of the README.
+# The full report: scenes under budgets of 0.5, 2, 4 and 16 ms, a page for each, and their table.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/usage.sh" "$@" <<'TEXT'
 usage: bash bench/report.sh [OPTIONS OF cairn run...]
 
-Writes out/report-BUDGET.html, .json and .md, and out/readme_table.md. Under ten minutes on two quiet cores.
+Writes out/report-BUDGET.html, .json and .md, and out/report_table.md. Under ten minutes on two quiet cores.
 Options are added to those below, for example:  bash bench/report.sh --frames 60
 Environment: BUDGETS (0.5ms 2ms 4ms 16ms), SCENES (the twelve that are not small, or all), SOLVERS (bullet-si,bullet-si@fit,cairn).
 TEXT
@@ -30,8 +30,8 @@ for i in "${!budgets[@]}"; do
   files+=("$out.json")
 done
 
-python3 bench/readme_table.py "${files[@]}" >out/readme_table.md
-cat out/readme_table.md
+python3 bench/report_table.py "${files[@]}" >out/report_table.md
+cat out/report_table.md
 echo
-echo "Written after $((SECONDS / 60)) minutes: out/readme_table.md, and for each budget a page:"
+echo "Written after $((SECONDS / 60)) minutes: out/report_table.md, and for each budget a page:"
 for budget in "${budgets[@]}"; do echo "  $PWD/out/report-$budget.html"; done

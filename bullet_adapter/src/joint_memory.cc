@@ -69,7 +69,7 @@ Products ProductsOf(const JointRow& a, const JointRow& b, const JointRows& joint
 }
 
 template <class AnyRow>
-float ShareOfStart(const AnyRow& row) {
+float ShareOfRow(const AnyRow& row) {
   const float linear = Dot(row.linear_a, row.linear_a) + Dot(row.linear_b, row.linear_b);
   return linear == 0 ? kTurning : 1;
 }
@@ -121,7 +121,7 @@ void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) 
     const Row* const rows = &group->rows[joint.first_row];
     if (!AllAlike(&last_.rows[last.first_row], rows, joint, lever_)) return;
     for (int i = 0; i < joint.rows; ++i) {
-      const btScalar factor = factor_ * btScalar(ShareOfStart(rows[i]));
+      const btScalar factor = factor_ * btScalar(ShareOfRow(rows[i]));
       group->impulses[joint.first_row + i] = factor * last_.impulses[last.first_row + i];
     }
     return;
@@ -129,7 +129,7 @@ void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) 
   const JointRow* const rows = &group->joint_rows[joint.first_row];
   if (!AllAlike(&last_.joint_rows[last.first_row], rows, joint, lever_)) return;
   for (int i = 0; i < joint.rows; ++i) {
-    const float factor = static_cast<float>(factor_) * ShareOfStart(rows[i]);
+    const float factor = static_cast<float>(factor_) * ShareOfRow(rows[i]);
     group->joint_impulses[joint.first_row + i] = factor * last_.joint_impulses[last.first_row + i];
   }
 }

@@ -99,20 +99,14 @@ TEST(Measure, IsZeroAtASolutionToTheBit) {
   EXPECT_EQ(r.complementarity, 0);
 }
 
-// Nothing to be relative to: the relative measures are the absolute ones.
 // x - clamp(x - w / d) is 0 there in floating point, and was taken for a solution.
 TEST(Measure, SeesASmallErrorBesideALargeX) {
-  Eigen::MatrixXd m(2, 2);
-  m << 1, -1, -1, 1;
-  const BoxedLcp problem{.M = m.sparseView(),
-                         .q = VectorXd::Constant(2, -1),
-                         .lo = VectorXd::Zero(2),
-                         .hi = VectorXd::Constant(2, kInfinity)};
-  const LcpResidual residual = Measure(problem, VectorXd::Constant(2, 2e17));
+  const LcpResidual residual = Measure(test::WithoutSolution(), VectorXd::Constant(2, 2e17));
   EXPECT_EQ(residual.max, 1);
   EXPECT_EQ(residual.natural, 1);
 }
 
+// Nothing to be relative to: the relative measures are the absolute ones.
 TEST(Measure, IsAbsoluteWithoutQ) {
   const BoxedLcp problem =
       test::Boxed(Eigen::Vector2d(2, 8).asDiagonal(), Eigen::Vector2d::Zero(),

@@ -107,6 +107,12 @@ lcp::BoxedLcp Complementary(const Sparse& m, const Eigen::VectorXd& q) {
   return {.M = m, .q = q, .lo = Zeros(q.size()), .hi = Infinite(q.size())};
 }
 
+lcp::BoxedLcp WithoutSolution() {
+  Eigen::Matrix2d m;
+  m << 1, -1, -1, 1;
+  return Complementary(m.sparseView(), Eigen::Vector2d(-1, -1));
+}
+
 Planted Plant(const Sparse& m, const PlantOptions& options, Random* random) {
   const Eigen::Index n = m.rows();
   Planted planted{.problem = {.M = m, .q = Zeros(n), .lo = Zeros(n), .hi = Zeros(n)},

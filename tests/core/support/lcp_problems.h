@@ -28,6 +28,9 @@ lcp::BoxedLcp Boxed(const Eigen::MatrixXd& m, const Eigen::VectorXd& q, const Ei
 /// 0 <= x.
 lcp::BoxedLcp Complementary(const Sparse& m, const Eigen::VectorXd& q);
 
+/// w = (x - y - 1, y - x - 1), which cannot both be at least 0, with x and y at least 0.
+lcp::BoxedLcp WithoutSolution();
+
 /// A problem, and the x and w that it was made from: q = w - M x, rounded.
 struct Planted {
   lcp::BoxedLcp problem;

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-"""The table of the README from results of cairn run: python3 readme_table.py RESULT.json...
+"""The first table of docs/benchmarks.md, The full report: python3 report_table.py RESULT.json...
 
 Each scene comes from the budget that fits it: 4 ms, or 16 ms where Bullet's ten iterations take longer than 4 ms.
-Below it, for docs/benchmarks.md: the same residuals under every budget, and how many frames were over it."""
+Below it the same residuals under every budget, and how many frames were over it."""
 import json
 import sys
 
@@ -30,7 +30,7 @@ def row(scene, budget):
     solvers = {solver["solver"]: solver for solver in scene["solvers"]}
     missing = [label for label in SOLVERS if label not in solvers]
     if missing:
-        sys.exit(f"readme_table: {scene['scene']} at {budget:g} ms was run without {', '.join(missing)}")
+        sys.exit(f"report_table: {scene['scene']} at {budget:g} ms was run without {', '.join(missing)}")
     chosen = [solvers[label] for label in SOLVERS]
     ends = [verdict(solver) for solver in chosen]
     cells = [scene["scene"] + ("" if budget == USUAL else f", {budget:g} ms")]
