@@ -75,21 +75,19 @@ endfunction()
 
 set(CAIRN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
-# A shared library for users shows what its public headers declare. One that is built with tests shows all, as they test
-# what is inside.
-set(CAIRN_HIDES OFF)
-if(BUILD_SHARED_LIBS AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CAIRN_TESTS)
-  set(CAIRN_HIDES ON)
-endif()
-function(cairn_hide target file)
-  if(NOT CAIRN_HIDES)
-    return()
-  endif()
+# A shared library shows the names that cmake/exports/<file>.map.in lists.
+function(cairn_show target file)
   string(REGEX REPLACE "-float64$" "" map ${file})
   configure_file(${PROJECT_SOURCE_DIR}/cmake/exports/${map}.map.in ${CMAKE_CURRENT_BINARY_DIR}/${file}.map @ONLY)
   target_link_options(${target} PRIVATE LINKER:--version-script=${CMAKE_CURRENT_BINARY_DIR}/${file}.map)
   set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${CMAKE_CURRENT_BINARY_DIR}/${file}.map)
 endfunction()
+
+# A library of C++ that is built with tests shows all, as they test what is inside.
+set(CAIRN_HIDES OFF)
+if(BUILD_SHARED_LIBS AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CAIRN_TESTS)
+  set(CAIRN_HIDES ON)
+endif()
 
 # A library of the product: cairn_library(target alias sources...) makes <target>, cairn::<alias> and the
 # file libcairn or libcairn-<alias>.
@@ -104,7 +102,9 @@ function(cairn_library target alias)
     EXPORT_NAME ${alias} OUTPUT_NAME ${file} POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${CAIRN_SOVERSION} DEFINE_SYMBOL "" INSTALL_RPATH "$ORIGIN")
   cairn_strict(${target})
-  cairn_hide(${target} ${file})
+  if(CAIRN_HIDES)
+    cairn_show(${target} ${file})
+  endif()
 endfunction()
 
 # Builds a target against Bullet in one precision (float or float64). Everything that links the target
