@@ -231,13 +231,9 @@ std::optional<IslandReport> Player::ReportOf(int body) {
   }
   if (cairn() == nullptr || frame_ == 0) return {};
   const Report& report = cairn()->report();
-  const auto bodies = cairn()->problem().bodies;
-  const auto id =
-      static_cast<std::uint64_t>(world().dynamic_bodies()[body]->getWorldArrayIndex() + 1);
-  for (size_t i = 0; i < bodies.size() && i < report.island_of.size(); ++i) {
-    if (bodies[i].id == id && report.island_of[i] >= 0) return report.islands[report.island_of[i]];
-  }
-  return {};
+  const auto place = static_cast<size_t>(cairn()->place_of(*world().dynamic_bodies()[body]));
+  if (place >= report.island_of.size() || report.island_of[place] < 0) return {};
+  return report.islands[report.island_of[place]];
 }
 
 btTransform Player::Pose(const btRigidBody& body, btScalar share) const {

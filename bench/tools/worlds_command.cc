@@ -167,6 +167,7 @@ Command AddWorldsCommand(CLI::App* app) {
   const auto add = TextAdder(worlds);
   add("--seeds", &words->seeds, "Worlds FROM to TO - 1", "FROM:TO");
   add("--seed", &words->seed, "One world", "N");
+  worlds->get_option("--seed")->excludes("--seeds");
   add("--solver", &words->solvers,
       "Of cairn, cairn-sweeps, cairn-work, cairn-always, cairn-parts, see cairn list solvers; "
       "default: all but the last",

@@ -99,7 +99,6 @@ Body ToBody(const btRigidBody& rigid) {
   body.linear_factor = ToEigen(rigid.getLinearFactor()).cwiseAbs();
   body.inv_inertia = angular_factor.asDiagonal() * ToEigen(rigid.getInvInertiaTensorWorld()) *
                      angular_factor.asDiagonal();
-  body.id = static_cast<std::uint64_t>(std::max(0, rigid.getWorldArrayIndex() + 1));
   return body;
 }
 
@@ -108,8 +107,15 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btConta
   ++substep_;
   time_step_ = info.m_timeStep;
   strangers_.clear();
+  names_.BeginSubstep();
   if (threads->several() && EnterInParts(objects, info, threads)) return;
   EnterInOrder(objects, info);
+}
+
+void BodyTable::Forget() {
+  names_.Forget();
+  slots_.clear();
+  ++growths_;
 }
 
 void BodyTable::EnterInOrder(std::span<btCollisionObject* const> objects,
@@ -149,6 +155,11 @@ bool BodyTable::EnterInParts(std::span<btCollisionObject* const> objects,
     part.first = bodies;
     bodies += part.bodies;
   }
+  for (size_t i = 0; i < parts_.size(); ++i) {
+    if (!parts_[i].renamed) continue;
+    const size_t first = i * kObjectsOfPart;
+    EnterNames(objects.subspan(first, std::min<size_t>(kObjectsOfPart, objects.size() - first)));
+  }
   bodies_.resize(bodies);
   motions_.resize(bodies);
   rigids_.resize(bodies);
@@ -167,10 +178,26 @@ BodyTable::Part BodyTable::Count(std::span<btCollisionObject* const> objects) {
     part.regular = index >= 0 && index < static_cast<int>(slots_.size()) &&
                    claims_[index].exchange(substep_, std::memory_order_relaxed) != substep_;
     if (!part.regular) return part;
-    ContactEnd unused;
-    if (Describe(*objects[i], &unused) != nullptr) ++part.bodies;
+    ContactEnd end;
+    const btRigidBody* const rigid = Describe(*objects[i], &end);
+    if (rigid == nullptr) continue;
+    ++part.bodies;
+    part.renamed |= end.reacts && !names_.Knows(index, *rigid);
   }
   return part;
+}
+
+void BodyTable::EnterNames(std::span<btCollisionObject* const> objects) {
+  for (const btCollisionObject* const object : objects) {
+    const btRigidBody* const rigid = btRigidBody::upcast(object);
+    if (rigid != nullptr && Reacts(*rigid)) NameOf(*rigid);
+  }
+}
+
+std::uint64_t BodyTable::NameOf(const btRigidBody& rigid) {
+  const int place = rigid.getWorldArrayIndex();
+  if (!names_.Knows(place, rigid)) names_.Enter(place, rigid);
+  return names_.of(place);
 }
 
 void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first,
@@ -180,13 +207,15 @@ void BodyTable::EnterPart(std::span<btCollisionObject* const> objects, int first
   for (size_t i = 0; i < objects.size(); ++i) {
     PrefetchAhead(objects, i);
     const btCollisionObject& object = *objects[i];
-    Slot& slot = slots_[object.getWorldArrayIndex()];
+    const int index = object.getWorldArrayIndex();
+    Slot& slot = slots_[index];
     slot.object = &object;
     slot.substep = substep_;
     btRigidBody* const rigid = Describe(object, &slot.end);
     if (rigid == nullptr) continue;
     slot.end.number = number;
     bodies_[number] = ToBody(*rigid);
+    if (slot.end.reacts) bodies_[number].id = names_.of(index);
     motions_[number] = MotionOf(*rigid, time_step_);
     rigids_[number] = rigid;
     if (slot.end.reacts) terms.Add(*rigid, number);
@@ -238,6 +267,7 @@ const ContactEnd& BodyTable::Enter(const btCollisionObject& object) {
     slot.object = &object;
     slot.substep = substep_;
     Fill(object, &slot.end);
+    if (slot.end.reacts) bodies_[slot.end.number].id = NameOf(*rigids_[slot.end.number]);
     return slot.end;
   }
   const auto [entry, is_new] = strangers_.try_emplace(&object);

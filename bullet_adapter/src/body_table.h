@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "body_names.h"
 #include "cairn/bullet/precision.h"
 #include "cairn/contact_problem.h"
 #include "cairn/detail/prefetch.h"
@@ -22,7 +23,7 @@ inline namespace CAIRN_BULLET_PRECISION {
 
 /// The body of a ContactProblem that stands for a rigid body, at rest: what is known of its motion
 /// is in the targets of the rows. Kinematic and static bodies do not react, whatever mass they were
-/// given.
+/// given. Without an id.
 Body ToBody(const btRigidBody& rigid);
 /// Whether impulses change the velocity of a body.
 bool Reacts(const btRigidBody& rigid);
@@ -57,6 +58,8 @@ class BodyTable {
   /// passed over.
   void Begin(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info,
              detail::Threads* threads);
+  /// Objects of the next substep are those of another world.
+  void Forget();
   /// Does to the bodies that are there, those of enabled joints, what tension asks for where steps
   /// are that long [s].
   void Stiffen(std::span<btTypedConstraint* const> joints, btScalar part,
@@ -111,6 +114,7 @@ class BodyTable {
   struct Part {
     int bodies = 0, first = 0;  ///< that have a number, and the first of these
     bool regular = true;        ///< each is met once, and has a slot of its own
+    bool renamed = false;       ///< some are where others were
   };
 
   void EnterInOrder(std::span<btCollisionObject* const> objects, const btContactSolverInfo& info);
@@ -121,6 +125,10 @@ class BodyTable {
   /// Writes jointed_.
   void FindJointed(std::span<btTypedConstraint* const> joints);
   Part Count(std::span<btCollisionObject* const> objects);
+  /// Those of bodies that are where others were, too.
+  void EnterNames(std::span<btCollisionObject* const> objects);
+  /// @pre it is in a world
+  std::uint64_t NameOf(const btRigidBody& rigid);
   void EnterPart(std::span<btCollisionObject* const> objects, int first,
                  const btContactSolverInfo& info);
   /// One that has no slot yet, or none of its own.
@@ -133,6 +141,7 @@ class BodyTable {
   unsigned substep_ = 0;
   btScalar time_step_ = 0;
   std::vector<Slot> slots_;
+  BodyNames names_;
   int growths_ = 0;
   /// By slot: the last substep in which several threads listed bodies and one came to it.
   std::unique_ptr<std::atomic<unsigned>[]> claims_;

@@ -213,6 +213,10 @@ ContactProblem ConstraintSolver::problem() const {
   return impl_->solved_fast ? impl_->fast.problem() : impl_->rows.problem();
 }
 
+int ConstraintSolver::place_of(const btRigidBody& body) const {
+  return impl_->solved_fast ? impl_->fast.place_of(body) : -1;
+}
+
 std::span<const double> ConstraintSolver::impulses() const {
   if (!impl_->solved_fast) return impl_->rows.impulses();
   impl_->shown_impulses = AllImpulses(impl_->fast.problem(), impl_->fast.impulses());
@@ -307,7 +311,7 @@ void ConstraintSolver::reset() {
   btSequentialImpulseConstraintSolver::reset();
   impl_->solver.Reset();
   impl_->solver_of_rows.Reset();
-  impl_->fast.Forget();
+  impl_->fast.Reset();
   impl_->write_time = impl_->finish_time = {};
   impl_->report = {};
   impl_->refused.clear();
@@ -335,7 +339,7 @@ bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& 
               options, impl_->settings.substeps, &threads);
   }
   if (fast.problem().bodies.empty()) {
-    fast.Forget();
+    fast.Rest();
     impl_->report = {};
     impl_->report.stop = StopReason::kConverged;
     impl_->report.elapsed = Passed(impl_->start, impl_->Now());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cairn/detail/spans.h"
+#include "cairn/detail/start.h"
 #include "contacts/prefetch_manifold.h"
 #include "write_back.h"
 
@@ -27,10 +28,11 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
                      const Options& options, int substeps, detail::Threads* threads) {
   threads_ = threads;
   pushes_.Clear();
+  // what is known of a world says nothing of another one; its info is its own
+  if (std::exchange(world_, &info) != &info) Reset();
   const btScalar last_step = std::exchange(time_step_, info.m_timeStep);
   substeps_ = substeps;
-  // the tension of a world says nothing of another one; its info is its own
-  if (std::exchange(world_, &info) != &info || !options.geometric_stiffness) stiffness_.Reset();
+  if (!options.geometric_stiffness) stiffness_.Reset();
   bodies_.Begin(group.bodies, info, threads_);
   if (options.geometric_stiffness) {
     const SpanClock clock(threads_->recorder(), 0, {SpanKind::kTension});
@@ -38,15 +40,15 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   }
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
-  // what holds a load in a step holds it for twice as long with twice the impulse; what stops a
-  // blow in a short one does not go on
-  const btScalar longer = last_step > 0 ? btMin(btScalar(10), time_step_ / last_step) : btScalar(1);
-  const btScalar factor = warm ? info.m_warmstartingFactor * longer : btScalar(0);
-  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0),
+  const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
+  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0), time_step_,
                       group.units_per_metre, &group_);
   joint_builder_.Append(group.joints, info, limits, options.contacts);
 
-  const ContactStart start{factor, options.warm_start_friction ? factor : btScalar(0),
+  const double longer =
+      ShareOfStart(static_cast<double>(last_step), static_cast<double>(time_step_));
+  const btScalar of_contact = factor * static_cast<btScalar>(longer);
+  const ContactStart start{of_contact, options.warm_start_friction ? of_contact : btScalar(0),
                            &twist_memory_};
   twist_memory_.Begin();
   const ContactSoftness softness(info, options, resting_step_.Next(info.m_timeStep));
@@ -138,12 +140,22 @@ void FastGroup::Write(const btContactSolverInfo& info, std::span<const Velocity>
   contacts_.Keep(&twist_memory_);
 }
 
+void FastGroup::Rest() {
+  joint_memory_.Keep(group_);
+  twist_memory_.Forget();
+}
+
 void FastGroup::Forget() {
   time_step_ = 0;
   joint_memory_.Forget();
   twist_memory_.Forget();
   resting_step_.Forget();
   stiffness_.Reset();
+}
+
+void FastGroup::Reset() {
+  Forget();
+  bodies_.Forget();
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

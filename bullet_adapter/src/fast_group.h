@@ -48,6 +48,11 @@ class FastGroup {
   /// The most sweeps that a joint asks for.
   int most_sweeps() const { return joint_builder_.most_sweeps(); }
 
+  /// Of a body in problem().bodies, -1 if it is not there.
+  int place_of(const btRigidBody& body) const {
+    const ContactEnd* const end = bodies_.Find(body);
+    return end != nullptr && end->number != kWorld ? end->number : -1;
+  }
   /// How many there are, or a little more.
   int rows() const;
   /// Whose rows they are.
@@ -61,8 +66,13 @@ class FastGroup {
   /// @param means  Solver::mean_velocities()
   void Write(const btContactSolverInfo& info, std::span<const Velocity> means);
 
+  /// In place of Solve() and Write() where all bodies are asleep. @pre Read()
+  void Rest();
+
   /// Starts the next group cold where only this knows what it could start from.
   void Forget();
+  /// The same, and bodies go by the names that they have in a new solver.
+  void Reset();
 
  private:
   void ReadContacts(std::span<btPersistentManifold* const> manifolds,

@@ -61,7 +61,11 @@ void GroupRows::ReadBodies(const RowPools& pools) {
   bodies_.resize(pools.bodies->size());
   for (int i = 0; i < pools.bodies->size(); ++i) {
     const btSolverBody& body = (*pools.bodies)[i];
-    bodies_[i] = MayReact(body) ? ToBody(*body.m_originalBody) : Body{};
+    bodies_[i] = {};
+    if (!MayReact(body)) continue;
+    bodies_[i] = ToBody(*body.m_originalBody);
+    const int place = body.m_originalBody->getWorldArrayIndex();
+    bodies_[i].id = static_cast<std::uint64_t>(std::max(0, place + 1));
   }
   velocities_.assign(bodies_.size(), Velocity{});
 }

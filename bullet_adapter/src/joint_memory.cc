@@ -2,9 +2,12 @@
 #include "joint_memory.h"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
+#include "cairn/detail/start.h"
 #include "prefetch.h"
 
 namespace cairn::bullet {
@@ -87,70 +90,171 @@ bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint, float le
 
 }  // namespace
 
+bool JointMemory::Entry::Is(const btTypedConstraint& joint, btScalar applied) const {
+  return type == joint.getConstraintType() && body_a == &joint.getRigidBodyA() &&
+         body_b == &joint.getRigidBodyB() && applied_impulse == applied &&
+         std::signbit(applied_impulse) == std::signbit(applied);
+}
+
+void JointMemory::Joints::Clear() {
+  problem.Clear();
+  entries.clear();
+  index.Clear();
+}
+
+void JointMemory::Joints::Add(const Entry& entry, const JointRows& rows, const GroupProblem& from) {
+  JointRows& added = problem.joints.emplace_back(rows);
+  const auto append = [&](const auto& all, auto* to) {
+    to->insert(to->end(), all.begin() + rows.first_row, all.begin() + rows.first_row + rows.rows);
+  };
+  if (rows.written_out) {
+    added.first_row = static_cast<int>(problem.rows.size());
+    append(from.rows, &problem.rows);
+    append(from.impulses, &problem.impulses);
+  } else {
+    added.first_row = static_cast<int>(problem.joint_rows.size());
+    append(from.joint_rows, &problem.joint_rows);
+    append(from.joint_impulses, &problem.joint_impulses);
+  }
+  entries.push_back(entry);
+  index.Add(rows.joint);
+}
+
+template <class Keeps>
+void JointMemory::Joints::Filter(const Keeps& keeps) {
+  size_t kept = 0;
+  int rows = 0, compact_rows = 0;
+  index.Clear();
+  for (size_t i = 0; i < entries.size(); ++i) {
+    if (!keeps(i)) continue;
+    JointRows of_joint = problem.joints[i];
+    const auto move = [&](auto* all, int to) {
+      std::copy_n(all->begin() + of_joint.first_row, of_joint.rows, all->begin() + to);
+    };
+    int& end = of_joint.written_out ? rows : compact_rows;
+    if (of_joint.written_out) {
+      move(&problem.rows, end);
+      move(&problem.impulses, end);
+    } else {
+      move(&problem.joint_rows, end);
+      move(&problem.joint_impulses, end);
+    }
+    of_joint.first_row = std::exchange(end, end + of_joint.rows);
+    problem.joints[kept] = of_joint;
+    entries[kept++] = entries[i];
+    index.Add(of_joint.joint);
+  }
+  problem.joints.resize(kept);
+  entries.resize(kept);
+  problem.rows.resize(static_cast<size_t>(rows));
+  problem.impulses.resize(static_cast<size_t>(rows));
+  problem.joint_rows.resize(static_cast<size_t>(compact_rows));
+  problem.joint_impulses.resize(static_cast<size_t>(compact_rows));
+}
+
 void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor,
-                        double units_per_metre, GroupProblem* group) {
+                        btScalar time_step, double units_per_metre, GroupProblem* group) {
   constexpr size_t kAhead = 8;
-  if (!std::exchange(kept_, false)) Forget();
-  std::swap(last_, *group);
+  if (!std::exchange(kept_, false)) last_.Clear();
+  std::swap(last_.problem, *group);
   group->Clear();
   factor_ = factor;
+  time_step_ = time_step;
   lever_ = static_cast<float>(1 / (units_per_metre * units_per_metre));
-  index_.Rewind();
+  if (factor == 0) asleep_.Clear();
+  last_.index.Rewind();
+  asleep_.index.Rewind();
   applied_.clear();
   for (size_t i = 0; i < joints.size(); ++i) {
     if (i + kAhead < joints.size()) PrefetchJoint(*joints[i + kAhead], kHeadOfJoint);
     applied_.push_back(joints[i]->internalGetAppliedImpulse());
+    if (joints[i]->isEnabled()) continue;
+    // switched off, it does not sleep
+    for (Joints* const known : {&last_, &asleep_}) {
+      const int found = known->index.Find(joints[i]);
+      if (found < 0) continue;
+      Entry& entry = known->entries[found];
+      entry.met |= entry.Is(*joints[i], applied_[i]);
+    }
   }
 }
 
 void JointMemory::Start(int place, const JointRows& joint, GroupProblem* group) {
   if (factor_ == 0) return;
-  const int found = index_.Find(joint.joint);
-  if (found < 0) return;
-  const Entry& entry = entries_[found];
-  const JointRows& last = last_.joints[found];
-  const bool same = entry.type == joint.joint->getConstraintType() &&
-                    entry.body_a == &joint.joint->getRigidBodyA() &&
-                    entry.body_b == &joint.joint->getRigidBodyB() &&
-                    entry.applied_impulse == applied_[place] &&
-                    std::signbit(entry.applied_impulse) == std::signbit(applied_[place]) &&
-                    last.rows == joint.rows && last.written_out == joint.written_out &&
+  if (StartFrom(&last_, place, joint, group) || asleep_.entries.empty()) return;
+  StartFrom(&asleep_, place, joint, group);
+}
+
+bool JointMemory::StartFrom(Joints* joints, int place, const JointRows& joint,
+                            GroupProblem* group) {
+  const int found = joints->index.Find(joint.joint);
+  if (found < 0) return false;
+  Entry& entry = joints->entries[found];
+  if (entry.met || !entry.Is(*joint.joint, applied_[place])) return false;
+  entry.met = true;
+  const JointRows& last = joints->problem.joints[found];
+  const bool same = last.rows == joint.rows && last.written_out == joint.written_out &&
                     last.a_moves == joint.a_moves && last.b_moves == joint.b_moves;
-  if (!same) return;
-  if (joint.written_out) {
-    const Row* const rows = &group->rows[joint.first_row];
-    if (!AllAlike(&last_.rows[last.first_row], rows, joint, lever_)) return;
+  if (!same) return false;
+  const double longer =
+      ShareOfStart(static_cast<double>(entry.time_step), static_cast<double>(time_step_));
+  const btScalar factor = factor_ * static_cast<btScalar>(longer);
+  const GroupProblem& from = joints->problem;
+  const auto start = [&](const auto& rows_before, const auto& impulses_before, const auto& rows_now,
+                         auto* impulses_now) {
+    const auto* const rows = &rows_now[joint.first_row];
+    if (!AllAlike(&rows_before[last.first_row], rows, joint, lever_)) return false;
+    using Impulse = std::remove_reference_t<decltype((*impulses_now)[0])>;
     for (int i = 0; i < joint.rows; ++i) {
-      const btScalar factor = factor_ * btScalar(ShareOfRow(rows[i]));
-      group->impulses[joint.first_row + i] = factor * last_.impulses[last.first_row + i];
+      const auto share = static_cast<Impulse>(factor) * static_cast<Impulse>(ShareOfRow(rows[i]));
+      (*impulses_now)[joint.first_row + i] = share * impulses_before[last.first_row + i];
     }
-    return;
-  }
-  const JointRow* const rows = &group->joint_rows[joint.first_row];
-  if (!AllAlike(&last_.joint_rows[last.first_row], rows, joint, lever_)) return;
-  for (int i = 0; i < joint.rows; ++i) {
-    const float factor = static_cast<float>(factor_) * ShareOfRow(rows[i]);
-    group->joint_impulses[joint.first_row + i] = factor * last_.joint_impulses[last.first_row + i];
-  }
+    return true;
+  };
+  if (joint.written_out) return start(from.rows, from.impulses, group->rows, &group->impulses);
+  return start(from.joint_rows, from.joint_impulses, group->joint_rows, &group->joint_impulses);
 }
 
 void JointMemory::Keep(const GroupProblem& group) {
+  KeepThoseAsleep();
   kept_ = true;
-  entries_.clear();
-  index_.Clear();
+  last_.entries.clear();
+  last_.index.Clear();
   for (const JointRows& rows : group.joints) {
     btTypedConstraint& joint = *rows.joint;
     // a new one has +0
     if (joint.internalGetAppliedImpulse() == 0) joint.internalSetAppliedImpulse(btScalar(-0.0));
-    index_.Add(rows.joint);
-    entries_.push_back({&joint.getRigidBodyA(), &joint.getRigidBodyB(), joint.getConstraintType(),
-                        joint.internalGetAppliedImpulse()});
+    last_.index.Add(rows.joint);
+    last_.entries.push_back({&joint.getRigidBodyA(), &joint.getRigidBodyB(),
+                             joint.getConstraintType(), joint.internalGetAppliedImpulse(),
+                             time_step_});
+  }
+}
+
+void JointMemory::KeepThoseAsleep() {
+  const auto absent = [](const Entry& entry) { return !entry.met; };
+  if (factor_ == 0 || std::none_of(last_.entries.begin(), last_.entries.end(), absent)) return;
+  for (Entry& entry : last_.entries) {
+    if (!entry.met) entry.asleep_as = fell_asleep_++;
+  }
+  // those that were removed are among them
+  constexpr std::int64_t kMost = 1 << 14;
+  last_.index.Rewind();
+  asleep_.Filter([&](size_t i) {
+    const Entry& entry = asleep_.entries[i];
+    // another one may have the address of one that was removed
+    return !entry.met && entry.asleep_as >= fell_asleep_ - kMost &&
+           last_.index.Find(asleep_.problem.joints[i].joint) < 0;
+  });
+  for (size_t i = 0; i < last_.entries.size(); ++i) {
+    if (last_.entries[i].met) continue;
+    asleep_.Add(last_.entries[i], last_.problem.joints[i], last_.problem);
   }
 }
 
 void JointMemory::Forget() {
-  index_.Clear();
-  entries_.clear();
+  last_.Clear();
+  asleep_.Clear();
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

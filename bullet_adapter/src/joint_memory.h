@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,19 +12,20 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
-/// Impulses of joints from one solved group to the next, to start from. Nobody tells when a joint
-/// is removed, and another one may get its address: a joint is the one that is remembered only if
-/// its type, bodies and number of rows are, if it still has the applied impulse that it was left
-/// with, and if its rows point where they pointed. Only the group before is remembered, so that
-/// worlds which share a solver start cold.
+/// Impulses of joints from one solved group to the next, to start from, and from when a joint fell
+/// asleep to when it wakes. Nobody tells when a joint is removed, and another one may get its
+/// address: a joint is the one that is remembered only if its type, bodies and number of rows are,
+/// if it still has the applied impulse that it was left with, and if its rows point where they
+/// pointed.
 class JointMemory {
  public:
   /// Begins a group; the applied impulses of the joints must be as the last group left them.
-  /// @param factor  of the start, at least 0, which starts cold
+  /// @param factor     of the start for a step as long as the last, at least 0, which starts cold
+  /// @param time_step  of the group [s]
   /// @param units_per_metre  see Tuning: rows are as alike in metres
-  /// @param group   has the last one, which is taken away; is left empty
-  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor, double units_per_metre,
-             GroupProblem* group);
+  /// @param group      has the last one, which is taken away; is left empty
+  void Begin(std::span<btTypedConstraint* const> joints, btScalar factor, btScalar time_step,
+             double units_per_metre, GroupProblem* group);
   /// Sets the start of the joint with that place in the group.
   void Start(int place, const JointRows& joint, GroupProblem* group);
   /// Remembers a solved group, once its impulses are written to the joints.
@@ -31,20 +33,40 @@ class JointMemory {
   void Forget();
 
  private:
-  /// What a joint is known by; its rows and impulses are in last_.
+  /// What a joint is known by.
   struct Entry {
     const btRigidBody *body_a, *body_b;
     int type;
     btScalar applied_impulse;
+    btScalar time_step;          ///< [s]
+    bool met = false;            ///< it was in a later group
+    std::int64_t asleep_as = 0;  ///< the how manieth, of those asleep
+
+    bool Is(const btTypedConstraint& joint, btScalar applied) const;
+  };
+  /// Joints, and their rows and impulses.
+  struct Joints {
+    GroupProblem problem;
+    std::vector<Entry> entries;  ///< in the order of problem.joints
+    AddressIndex index;          ///< of the entries
+
+    void Clear();
+    void Add(const Entry& entry, const JointRows& rows, const GroupProblem& from);
+    /// Keeps those that @p keeps says, of their places.
+    template <class Keeps>
+    void Filter(const Keeps& keeps);
   };
 
-  btScalar factor_ = 0;
+  bool StartFrom(Joints* joints, int place, const JointRows& joint, GroupProblem* group);
+  void KeepThoseAsleep();
+
+  btScalar factor_ = 0, time_step_ = 0;
   float lever_ = 1;                ///< What products of levers count beside those of directions.
   std::vector<btScalar> applied_;  ///< of the present joints, by place
-  std::vector<Entry> entries_;     ///< of the last group, in the order of its joints
-  GroupProblem last_;
-  bool kept_ = false;   ///< the present group was
-  AddressIndex index_;  ///< of the entries
+  Joints last_;                    ///< those of the last group
+  Joints asleep_;                  ///< those that have been in no group since
+  std::int64_t fell_asleep_ = 0;   ///< how many ever have
+  bool kept_ = false;              ///< the present group was
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

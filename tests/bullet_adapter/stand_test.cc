@@ -76,20 +76,23 @@ TEST(Stand, HeavyTopsOfAnyHeightStandInWorldsAsBulletMakesThem) {
 }
 
 // Awake, in worlds as Bullet makes them. Stacks of 4 to 6 rocked by 0.1 m/s and more for as long as
-// anybody looked: what sweeps added to the impulses of the start came late.
+// anybody looked: what sweeps added to the impulses of the start came late. Some of 3 to 5 went on
+// by 0.03 m/s: a step was too dear for so few bodies.
 TEST(Stand, SmallStacksComeToRest) {
   for (const int size : {2, 3, 4, 5, 6, 7, 8, 10}) {
-    const bench::SceneOptions options{.size = size, .seed = 1, .friction_directions = 1};
-    bullet::ConstraintSolver cairn;
-    SceneWorld world("tower", &cairn, options);
-    world.Step(kTenSeconds);
-    std::vector<double> speeds;
-    for (int frame = 0; frame < 300; ++frame) {
-      world.Step(1);
-      speeds.push_back(bench::LargestSpeed(world.world()));
+    for (std::uint64_t seed = 1; seed < 5; ++seed) {
+      const bench::SceneOptions options{.size = size, .seed = seed, .friction_directions = 1};
+      bullet::ConstraintSolver cairn;
+      SceneWorld world("tower", &cairn, options);
+      world.Step(kTenSeconds);
+      std::vector<double> speeds;
+      for (int frame = 0; frame < 300; ++frame) {
+        world.Step(1);
+        speeds.push_back(bench::LargestSpeed(world.world()));
+      }
+      std::nth_element(speeds.begin(), speeds.begin() + 150, speeds.end());
+      EXPECT_LT(speeds[150], 0.015) << size << " boxes, seed " << seed;
     }
-    std::nth_element(speeds.begin(), speeds.begin() + 150, speeds.end());
-    EXPECT_LT(speeds[150], 0.02) << size << " boxes";
   }
 }
 

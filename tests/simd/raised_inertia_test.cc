@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/Jacobi>
 #include <algorithm>
 #include <cstring>
 #include <random>
+#include <utility>
 
 #include "simd/target.h"
 
@@ -17,11 +19,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr RaiseRules kRules = {.time_step = 0.1, .threshold = 2, .hold = 0.9, .same_moment = 1e-3};
+constexpr RaiseRules kRules = {
+    .time_step = 0.1, .threshold = 2, .hold = 0.9, .same_moment = 1e-3, .on_line = 1e-3};
 
 /// A body whose joints pull.
 struct Pulled {
-  Matrix3d stiffness, inv_inertia;
+  Matrix3d stiffness, arms, inv_inertia;
   Vector3d held, kept;
 };
 
@@ -32,7 +35,45 @@ struct Raised {
   Matrix3d response, carried, inv_inertia;
 };
 
-Raised Raise(const Pulled& body, const Vector3d& moments, const Matrix3d& axes) {
+/// The first of axes with equal moments, and how many there are; 1 where there are none.
+std::pair<int, int> EqualAxes(const Vector3d& moments) {
+  const auto same = [&](int i) {
+    return moments[i + 1] - moments[i] <= kRules.same_moment * moments[i + 1];
+  };
+  return {same(0) ? 0 : 1, 1 + int{same(0)} + int{same(1)}};
+}
+
+/// Turns two axes in their plane so that a matrix does not mix them, and the first has less of it.
+void Unmix(const Matrix3d& matrix, int p, int q, Matrix3d* axes) {
+  Eigen::Matrix2d both;
+  for (const int i : {0, 1}) {
+    for (const int k : {0, 1}) both(i, k) = axes->col(i ? q : p).dot(matrix * axes->col(k ? q : p));
+  }
+  const double rounding = 1e-6 * both.trace();
+  if (std::abs(both(0, 1)) > rounding) {
+    Eigen::JacobiRotation<double> rotation;
+    rotation.makeJacobi(both(0, 0), both(0, 1), both(1, 1));
+    axes->applyOnTheRight(p, q, rotation);
+  }
+  const auto own = [&](int i) { return axes->col(i).dot(matrix * axes->col(i)); };
+  if (own(p) - own(q) > rounding) axes->col(p).swap(axes->col(q));
+}
+
+/// Principal axes; those of equal moments are the ones that do not mix the arms. Where arms are
+/// alike across two of them, any are, and these are the kernel's.
+Matrix3d AxesOf(const Pulled& body, const Vector3d& moments, Matrix3d axes) {
+  const auto [first, count] = EqualAxes(moments);
+  for (int round = 0; round < (count == 3 ? 4 : 1); ++round) {
+    if (count > 1) Unmix(body.arms, first, first + 1, &axes);
+    if (count < 3) continue;
+    Unmix(body.arms, 1, 2, &axes);
+    Unmix(body.arms, 0, 2, &axes);
+  }
+  return axes;
+}
+
+Raised Raise(const Pulled& body, const Vector3d& moments, const Matrix3d& any_axes) {
+  const Matrix3d axes = AxesOf(body, moments, any_axes);
   const Matrix3d about = (axes.transpose() * body.stiffness * axes).cwiseAbs();
   Vector3d k;
   for (int i = 0; i < 3; ++i) {
@@ -40,12 +81,14 @@ Raised Raise(const Pulled& body, const Vector3d& moments, const Matrix3d& axes) 
     const double others = about.row(i).sum() - about(i, i);
     k[i] = std::max({0.0, own + others, kRules.hold * body.held[i]});
   }
-  const auto same = [&](int i) {
-    return moments[i + 1] - moments[i] <= kRules.same_moment * moments[i + 1];
-  };
-  if (same(0)) k[0] = k[1] = std::max(k[0], k[1]);
-  if (same(1)) k[1] = k[2] = std::max(k[1], k[2]);
-  if (same(0)) k[0] = k[1];
+  const auto [first, count] = EqualAxes(moments);
+  if (count > 1) {
+    const auto arms = [&](int i) { return axes.col(i).dot(body.arms * axes.col(i)); };
+    const bool on_line = arms(first) < kRules.on_line * arms(first + 1);
+    const int begin = first + int{on_line};
+    const double most = k.segment(begin, first + count - begin).maxCoeff();
+    k.segment(begin, first + count - begin).setConstant(most);
+  }
   const Vector3d strain = kRules.time_step * kRules.time_step * k.cwiseProduct(moments);
   const Vector3d kept = (1 + (strain.array() - kRules.threshold).max(0)).inverse();
   const Vector3d carried = kept.cwiseQuotient(body.kept).cwiseMin(1);
@@ -85,6 +128,13 @@ Pulled Draw(std::mt19937_64* random) {
   const Matrix3d any = Matrix3d::NullaryExpr(draw);
   const double pull = number(*random) < -0.8 ? 0 : std::exp(6 * number(*random));
   body.stiffness = pull * (any + any.transpose());
+  const auto add_arm = [&] {
+    const Vector3d arm = Vector3d::NullaryExpr(draw);
+    body.arms += pull * pull * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
+  };
+  body.arms.setZero();
+  add_arm();
+  if (number(*random) < 0) add_arm();
   const Eigen::Quaterniond turn(draw(), draw(), draw(), draw());
   Vector3d moments = (2 * Vector3d::NullaryExpr(draw).array()).exp();
   if (number(*random) < 0) moments[1] = moments[0];
@@ -115,6 +165,7 @@ TEST(RaisedInertia, IsThatOfItsFormulasOnEveryTarget) {
       for (int l = 0; l < kLanes; ++l) {
         Put(bodies[l].inv_inertia, l, axes.matrix);
         Put(bodies[l].stiffness, l, lanes.stiffness);
+        Put(bodies[l].arms, l, lanes.arms);
         for (int k = 0; k < 3; ++k) {
           lanes.held[k][l] = bodies[l].held[k];
           lanes.kept[k][l] = bodies[l].kept[k];

@@ -15,8 +15,8 @@ namespace {
 
 // Chosen on heavy tops and growing towers; see docs/lab/steps.md, Towers that rock.
 
-/// A contact rests from this age on [s]: twice the time after which Bullet lets bodies sleep.
-constexpr auto kRestsFrom = btScalar(4);
+/// A contact rests from this age on [s]: the time after which Bullet lets bodies sleep.
+constexpr auto kRestsFrom = btScalar(2);
 /// For so long it becomes gentler [s]: it must not be seen.
 constexpr auto kSettles = btScalar(2);
 /// How deep it then rests, of the way of a body in the first step of its fall.

@@ -57,6 +57,11 @@ class BlockSteps {
   /// many, less a margin; at least those, and at most twice as many.
   int SweepsOfEffort(int island, int iterations) const;
   bool HasJoints(int island) const { return frame_->plan().islands()[island].joints; }
+  StepOdds::Size SizeOf(int island) const {
+    const int bodies = frame_->plan().islands()[island].bodies;
+    if (HasJoints(island) || bodies > StepOdds::kFewBodies) return StepOdds::Size::kMany;
+    return bodies > StepOdds::kFewestBodies ? StepOdds::Size::kFew : StepOdds::Size::kFewest;
+  }
   /// Body::strain from which on nothing but raised inertia keeps the integrator stable.
   static constexpr double kUnstable = 4;
   /// The largest Body::strain on an island, while steps are weighed; else 0. Where joints have

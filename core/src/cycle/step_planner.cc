@@ -35,10 +35,6 @@ constexpr double kNear = 10;
 constexpr double kMostThrown = 1;
 /// The same where it is strained: what waits longer parts further.
 constexpr double kMostThrownStrained = 3;
-/// Errors that let heavy loads fall and beams of joints bend where sweeps leave them in frame after
-/// frame [m/s] or [rad/s]: what gravity adds in a step at 60 Hz. Islands of few bodies then take
-/// steps that pay whatever they cost in terms of row by row, which is microseconds.
-constexpr double kGross = 0.15;
 /// What costs more sweeps than this is not tried.
 constexpr double kMostSweeps = 1000;
 
@@ -163,7 +159,11 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const double left = of_scalar * scalar - rest;
   const double of_more = strained ? kMostOfScalarWithMoreStrained : kMostOfScalarWithMore;
   const bool gross = bodies <= StepOdds::kFewBodies && odds.stays_gross();
-  const double most_price = strained || gross ? of_rest : std::min(of_rest, left);
+  const bool rocks = steps_->SizeOf(i) == StepOdds::Size::kFewest && odds.stays_rough();
+  // what sweeps let fall in the first frames a later step stops at once, with a jerk that breaks
+  const bool begins = joints && odds.is_new();
+  const double most_price =
+      strained || gross || rocks || begins ? of_rest : std::min(of_rest, left);
   const int condensing = !strained && steps_->CondensesJoints(i) ? 1 : 0;
   const auto fits = [&](int factorisations) {
     const bool first = factorisations == 1;
@@ -235,8 +235,8 @@ void StepPlanner::Learn() {
     const PlannedIsland& island = frame_->plan().islands()[i];
     if (island.first_body < 0) continue;
     StepOdds& odds = steps_->odds(i);
-    const bool gross = Largest((*islands_)[i].seen, UnitOf(frame_->settings)) > kGross;
-    odds.EndFrame(islands_->StepsTaken(i) > 0 ? island.bodies : 0, gross);
+    odds.EndFrame(islands_->StepsTaken(i) > 0 ? island.bodies : 0,
+                  Largest((*islands_)[i].seen, UnitOf(frame_->settings)));
     if (!frame_->watches_gains()) continue;
     const int least = run.begin == 0 ? kLeastRun : kLeastRunAfterStep;
     const int sweeps = islands_->report(i).sweeps - run.begin;

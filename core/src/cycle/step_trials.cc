@@ -202,9 +202,7 @@ void StepTrials::TryAlone(int sweeps) {
     if (islands[i].stepped()) {
       if (verdicts_[i] == Verdict::kKept && IsBetterAlone(i)) verdicts_[i] = Verdict::kBetterAlone;
       if (frame_->learns()) {
-        const bool small =
-            !parts_.steps->HasJoints(i) && plan.islands()[i].bodies <= StepOdds::kFewBodies;
-        parts_.steps->odds(i).LearnGains(GainOfStep(i), GainAlone(i), small);
+        parts_.steps->odds(i).LearnGains(GainOfStep(i), GainAlone(i), parts_.steps->SizeOf(i));
       }
       if (verdicts_[i] != Verdict::kKept) continue;
     }

@@ -27,6 +27,8 @@ constexpr double kDamping = 0.02;
 constexpr double kFarTurn = 0.2;
 /// Bodies that are this much below the threshold are not remembered.
 constexpr double kRemember = 0.5;
+/// So many bodies that are asleep are remembered; those that were removed are among them.
+constexpr size_t kMostAbsent = 1 << 14;
 /// What the mean of tensions that sweeps alone left keeps of itself in a step.
 constexpr double kKeep = 0.9;
 /// Body::strain from which on joints take back less of their errors. From 4 on chains under heavy
@@ -34,6 +36,8 @@ constexpr double kKeep = 0.9;
 constexpr double kSlowed = 8;
 /// Moments of inertia that are this close have no axes of their own.
 constexpr double kSameMoment = 1e-3;
+/// Arms of joints whose squares across a line are this much less than along it lie on it.
+constexpr double kOnLine = 1e-3;
 
 /// No stiffness about an axis is larger.
 double Most(const Eigen::Matrix3d& stiffness) { return 2 * stiffness.norm(); }
@@ -83,12 +87,13 @@ double ShareOfErp(double strain) { return strain > kSlowed ? std::sqrt(kSlowed /
 
 std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
     double time_step, std::span<Body> bodies, std::span<const char> jointed) {
+  if (!absent_.empty()) Recall(bodies, jointed);
   raised_.clear();
   raised_.reserve(memories_.size());
   FindStrained(time_step, bodies, jointed);
   simd::PrincipalAxes axes;
   simd::RaisedInertia lanes;
-  const simd::RaiseRules rules = {time_step, kThreshold, kHold, kSameMoment};
+  const simd::RaiseRules rules = {time_step, kThreshold, kHold, kSameMoment, kOnLine};
   for (size_t from = 0; from < strained_.size(); from += simd::kLanes) {
     const size_t count = std::min<size_t>(simd::kLanes, strained_.size() - from);
     const std::span<const Strained> some(&strained_[from], count);
@@ -96,6 +101,7 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
       const Memory& memory = *some[l].memory;
       PutHalf(bodies[some[l].body].inv_inertia, l, axes.matrix);
       PutHalf(memory.stiffness, l, lanes.stiffness);
+      PutHalf(memory.arms, l, lanes.arms);
       for (int k = 0; k < 3; ++k) {
         lanes.held[k][l] = memory.held[k];
         lanes.kept[k][l] = memory.kept[k];
@@ -187,12 +193,46 @@ GeometricStiffness::Memory* GeometricStiffness::FindMoved(std::uint64_t key) {
   return found != by_key_.end() && memories_[*found].key == key ? &memories_[*found] : nullptr;
 }
 
+void GeometricStiffness::Recall(std::span<const Body> bodies, std::span<const char> jointed) {
+  key_at_.resize(bodies.size(), kNobody);
+  memory_at_.resize(bodies.size(), -1);
+  bool some = false;
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    if ((!jointed.empty() && jointed[i] == 0) || bodies[i].inv_mass == 0) continue;
+    const std::uint64_t key = BodyNameOf(bodies[i], static_cast<int>(i));
+    if (key_at_[i] == key) continue;
+    const auto found = std::lower_bound(
+        absent_.begin(), absent_.end(), key,
+        [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
+    if (found == absent_.end() || found->key != key) continue;
+    found->seen = some = true;
+    if (found->inv_mass != bodies[i].inv_mass) continue;
+    key_at_[i] = key;
+    memory_at_[i] = static_cast<int>(memories_.size());
+    memories_.push_back(*found);
+  }
+  if (some) std::erase_if(absent_, [](const Memory& memory) { return memory.seen; });
+}
+
+void GeometricStiffness::KeepAbsent() {
+  const size_t before = absent_.size();
+  for (const Memory& memory : memories_) {
+    if (memory.absent) absent_.push_back(memory);
+  }
+  if (absent_.size() == before) return;
+  if (absent_.size() > kMostAbsent) return absent_.clear();
+  std::sort(absent_.begin(), absent_.end(),
+            [](const Memory& a, const Memory& b) { return a.key < b.key; });
+  for (Memory& memory : absent_) memory.seen = false;
+}
+
 void GeometricStiffness::NotePlaces(std::span<const Body> bodies) {
   by_key_.clear();
   key_at_.resize(bodies.size());
   memory_at_.assign(bodies.size(), -1);
   for (size_t i = 0; i < bodies.size(); ++i) {
-    key_at_[i] = BodyNameOf(bodies[i], static_cast<int>(i));
+    // engines may leave bodies that are asleep where they are, without mass
+    key_at_[i] = bodies[i].inv_mass == 0 ? kNobody : BodyNameOf(bodies[i], static_cast<int>(i));
   }
   for (size_t m = 0; m < memories_.size(); ++m) {
     memory_at_[memories_[m].place] = static_cast<int>(m);
@@ -206,7 +246,7 @@ void GeometricStiffness::Add(int body, const Vector3& r, const Vector3& f) {
     sums_.emplace_back();
   }
   // (f . r) 1 - (r f' + f r') / 2, which is symmetric
-  Symmetric& sum = sums_[place_[body]];
+  Symmetric& sum = sums_[place_[body]].stiffness;
   const double xx = r[0] * f[0], yy = r[1] * f[1], zz = r[2] * f[2];
   const double along = xx + yy + zz;
   sum.xx += along - xx;
@@ -215,6 +255,16 @@ void GeometricStiffness::Add(int body, const Vector3& r, const Vector3& f) {
   sum.yx -= 0.5 * (r[1] * f[0] + f[1] * r[0]);
   sum.zx -= 0.5 * (r[2] * f[0] + f[2] * r[0]);
   sum.zy -= 0.5 * (r[2] * f[1] + f[2] * r[1]);
+
+  Symmetric& arms = sums_[place_[body]].arms;
+  const double force = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+  const double rx = force * r[0], ry = force * r[1], rz = force * r[2];
+  arms.xx += ry * r[1] + rz * r[2];
+  arms.yy += rx * r[0] + rz * r[2];
+  arms.zz += rx * r[0] + ry * r[1];
+  arms.yx -= ry * r[0];
+  arms.zx -= rz * r[0];
+  arms.zy -= rz * r[1];
 }
 
 void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
@@ -412,20 +462,26 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
   const double step2 = time_step * time_step;
   fresh_.clear();
   fresh_.reserve(pulled_.size());
-  for (Memory& memory : memories_) memory.seen = false;
+  for (Memory& memory : memories_) {
+    memory.seen = false;
+    memory.absent = true;
+  }
   for (size_t i = 0; i < bodies.size() && !memories_.empty(); ++i) {
-    if (known_[i] == nullptr) continue;
+    if (known_[i] == nullptr || bodies[i].inv_mass == 0) continue;
     Memory& memory = *known_[i];
+    memory.absent = false;
     memory.place = static_cast<int>(i);
     memory.seen = memory.inv_mass == bodies[i].inv_mass && jointed_[i] != 0;
-    View(memory.stiffness) *= stepped_[i] != 0 ? 0 : kKeep;
+    const double keep = stepped_[i] != 0 ? 0 : kKeep;
+    View(memory.stiffness) *= keep;
+    View(memory.arms) *= keep;
   }
   for (size_t p = 0; p < pulled_.size(); ++p) {
     const Body& body = bodies[pulled_[p]];
     const double inv_inertia = View(body.inv_inertia).trace();
     Memory* memory = known_[pulled_[p]];
     const bool known = memory != nullptr && memory->inv_mass == body.inv_mass;
-    const Matrix3 sum = sums_[p].Whole();
+    const Matrix3 sum = sums_[p].stiffness.Whole(), arms = sums_[p].arms.Whole();
     if (!known && step2 * Most(sum) * inv_inertia < kRemember) continue;
     if (!known) {
       if (memory == nullptr) memory = &fresh_.emplace_back();
@@ -435,9 +491,13 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
                  .inv_mass = body.inv_mass,
                  .inv_inertia = inv_inertia};
     }
-    View(memory->stiffness) += (stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep) * View(sum);
+    memory->absent = false;
+    const double newest = stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep;
+    View(memory->stiffness) += newest * View(sum);
+    View(memory->arms) += newest * View(arms);
     memory->seen = true;
   }
+  KeepAbsent();
   std::erase_if(memories_, [step2](const Memory& memory) {
     const double most = std::max(Most(memory.stiffness) * memory.inv_inertia, memory.held_ratio);
     return !memory.seen || step2 * most < kRemember / 2;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/start.h"
 #include "engine/room.h"
 #include "engine/step_body.h"
 

@@ -21,8 +21,11 @@ constexpr int kMeasureAgain = 64;
 /// to begin with steps, and for those that have them to go on. Steps gain less on arches and
 /// dominoes, more on towers, bridges and chains.
 constexpr double kBegins = 3, kGoesOn = 2.4;
-/// The same for small stacks: steps that come and go keep those rocking.
-constexpr double kSmallBegins = 2, kSmallGoesOn = 1.6;
+/// The same for small stacks, and for tiny ones: steps that come and go keep those rocking.
+constexpr double kSmallBegins = 2, kSmallGoesOn = 1.6, kTinyBegins = 1.5, kTinyGoesOn = 1.2;
+/// Errors that let heavy loads fall and beams of joints bend where sweeps leave them in frame after
+/// frame [m/s] or [rad/s]: what gravity adds in a step at 60 Hz. And those of stacks that rock.
+constexpr double kGross = 0.15, kRough = 0.005;
 /// What that ratio is taken to be at least and at most, so that a contact that came in one frame
 /// does not outweigh many others.
 constexpr double kLeastRatio = 1, kMostRatio = 30;
@@ -63,7 +66,7 @@ void StepOdds::LearnStep(int steps, double share) {
   Learn(std::clamp(-Log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
 }
 
-void StepOdds::LearnGains(double with_step, double alone, bool small) {
+void StepOdds::LearnGains(double with_step, double alone, Size size) {
   carries_ = with_step > kCarries * alone;
   const double ratio = with_step <= kLeastRatio * std::max(alone, 0.0) ? kLeastRatio
                        : with_step >= kMostRatio * alone               ? kMostRatio
@@ -72,8 +75,9 @@ void StepOdds::LearnGains(double with_step, double alone, bool small) {
   if (trials_ < kEqualTrials) ++trials_;
   ratio_ += (Log(ratio) - ratio_) / trials_;
   const bool goes_on = pays_ && !first;
-  const double least =
-      small ? (goes_on ? kSmallGoesOn : kSmallBegins) : (goes_on ? kGoesOn : kBegins);
+  const bool small = size != Size::kMany, tiny = size == Size::kFewest && stays_rough();
+  const double begins = tiny ? kTinyBegins : small ? kSmallBegins : kBegins;
+  const double least = !goes_on ? begins : tiny ? kTinyGoesOn : small ? kSmallGoesOn : kGoesOn;
   pays_ = ratio_ > Log(least);
   // what is piled up now, or begins to sag, asks for steps soon
   trial_pause_ = pays_ ? kPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
@@ -86,8 +90,12 @@ void StepOdds::Expect(double cut) {
   if (!later_.known) later_.cut = kLater * expected_;
 }
 
-void StepOdds::EndFrame(int stepped_bodies, bool gross) {
-  if (stepped_bodies == 0) gross_frames_ = gross ? std::min(gross_frames_ + 1, kGrossFrames) : 0;
+void StepOdds::EndFrame(int stepped_bodies, double error) {
+  if (stepped_bodies == 0) {
+    gross_frames_ = error > kGross ? std::min(gross_frames_ + 1, kGrossFrames) : 0;
+    rough_frames_ = error > kRough ? std::min(rough_frames_ + 1, kRoughFrames) : 0;
+  }
+  is_new_ = false;
   ++age_;
   ++trial_age_;
   stepped_bodies_ = stepped_bodies;

@@ -13,6 +13,10 @@ class StepOdds {
  public:
   /// Islands of so many bodies are small: steps there take microseconds.
   static constexpr int kFewBodies = 20;
+  /// And of so many tiny: all else there takes longer than the sweeps of sequential impulses.
+  static constexpr int kFewestBodies = 5;
+  /// Islands by how many bodies they have; kMany, too, where there are joints.
+  enum class Size { kMany, kFew, kFewest };
 
   /// How many times the price of a step has to be left of the budget for it to pay, if the sweeps
   /// that were made before it are added to what is left; infinite if it never does.
@@ -27,8 +31,7 @@ class StepOdds {
   void LearnStep(int steps, double share);
   /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
   /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
-  /// @param small  of contacts, and of few bodies
-  void LearnGains(double with_step, double alone, bool small = false);
+  void LearnGains(double with_step, double alone, Size size = Size::kMany);
   /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }
@@ -47,11 +50,15 @@ class StepOdds {
   void Expect(double cut);
   /// Where no step was taken, what is known of them fades into what was expected.
   /// @param stepped_bodies  of the island, 0 where no step was taken
-  /// @param gross  the errors that it ended with are
-  void EndFrame(int stepped_bodies, bool gross = false);
+  /// @param error  that it ended with [m/s] or [rad/s]
+  void EndFrame(int stepped_bodies, double error = 0);
   /// The last frames that had sweeps alone ended with gross errors: what hits something is soon
   /// done with it, a load that sweeps do not carry is not.
   bool stays_gross() const { return gross_frames_ >= kGrossFrames; }
+  /// The last half a second ended with errors that one sees: what rests goes on rocking.
+  bool stays_rough() const { return rough_frames_ >= kRoughFrames; }
+  /// No frame of the island has ended.
+  bool is_new() const { return is_new_; }
   /// Sweeps were not measured for long: a frame without steps is due.
   bool stale() const;
 
@@ -75,12 +82,14 @@ class StepOdds {
   static constexpr double kCarries = 2;
 
   static constexpr int kLate = 60;
-  static constexpr int kGrossFrames = 4;
+  static constexpr int kGrossFrames = 4, kRoughFrames = 30;
 
+  bool is_new_ = true;
   bool carries_ = false;
   bool pays_ = true;
   int stepped_bodies_ = 0, frames_without_ = kLate;
-  int gross_frames_ = 0;  ///< in a row, of those without a step; at most kGrossFrames
+  /// In a row, of those without a step; at most kGrossFrames and kRoughFrames.
+  int gross_frames_ = 0, rough_frames_ = 0;
   /// Logarithm of the gain of steps over that of the sweeps in their place: mean that forgets.
   double ratio_ = 0;
   int trials_ = 0;                       ///< that it is of

@@ -72,6 +72,31 @@ TEST(Tension, IsNotThatOfTheBodyThatHadTheNumberBefore) {
   EXPECT_NEAR(free->getAngularVelocity().z(), 5, 1e-3);
 }
 
+// Nor by one with a joint of its own.
+TEST(Tension, OfARopeThatGoesIsNotThatOfWheelsThatStay) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  const std::vector<btRigidBody*> links = HangWeight(&world);
+  std::vector<btRigidBody*> wheels;
+  for (int i = 0; i < 6; ++i) {
+    wheels.push_back(world.AddCylinder(
+        btScalar(0.02), btScalar(0.02),
+        {.mass = btScalar(0.1), .pose = At(btScalar(50 + i), 0, 0), .surface = {}}));
+    world.AddJoint(
+        std::make_unique<btHingeConstraint>(*wheels.back(), btVector3(0, 0, 0), btVector3(0, 1, 0)),
+        ConnectedBodies::kPassThrough);
+  }
+  for (int i = 0; i < 60; ++i) world.Step();
+  for (btRigidBody* wheel : wheels) wheel->setAngularVelocity({0, 10, 0});
+  for (btRigidBody* link : links) world.Remove(link);
+  for (int i = 0; i < 30; ++i) world.Step();
+  for (btRigidBody* wheel : wheels) EXPECT_NEAR(wheel->getAngularVelocity().y(), 10, 1e-2);
+  EXPECT_EQ(solver.place_of(*links[0]), -1) << "it has gone";
+  const int place = solver.place_of(*wheels[0]);
+  ASSERT_GE(place, 0);
+  EXPECT_FLOAT_EQ(solver.problem().bodies[place].inv_mass, 10);
+}
+
 // At the address of one that carried a weight, and whose last row carried nothing.
 TEST(JointMemory, DoesNotStartANewJoint) {
   bullet::ConstraintSolver solver;

@@ -211,6 +211,28 @@ TEST(TensionInBullet, HoldsWhatAMotorTurns) {
   }
 }
 
+// All axes of a ball are alike, and those across the string turn with it.
+TEST(TensionInBullet, LeavesABallFreeToSpinAboutItsString) {
+  for (const double load : {0, 20, 200}) {
+    bullet::ConstraintSolver solver;
+    World world(&solver);
+    const btVector3 up(0, btScalar(0.5), 0);
+    btRigidBody* const ball =
+        world.AddSphere(btScalar(0.05), {.mass = 1, .pose = At(0, 10, 0), .surface = {}});
+    world.AddJoint(std::make_unique<btPoint2PointConstraint>(*ball, up),
+                   bench::ConnectedBodies::kPassThrough);
+    if (load > 0) {
+      btRigidBody* const weight = world.AddSphere(
+          btScalar(0.2), {.mass = btScalar(load), .pose = At(0, 9, 0), .surface = {}});
+      world.AddJoint(std::make_unique<btPoint2PointConstraint>(*ball, *weight, -up, up),
+                     bench::ConnectedBodies::kPassThrough);
+    }
+    ball->setAngularVelocity({0, 10, 0});
+    for (int i = 0; i < 300; ++i) world.Step();
+    EXPECT_NEAR(ball->getAngularVelocity().y(), 10, 0.01) << load;
+  }
+}
+
 TEST(TensionInBullet, StaysWithinABudgetOfWork) {
   for (const std::int64_t units : {200, 2000, 20000}) {
     LoadedChain on(1000, {.budget = Budget::Work(units)}, {}, 0.3);

@@ -151,13 +151,26 @@ TEST(StepOdds, PayWhereSweepsInTheirPlaceGainLess) {
 }
 
 TEST(StepOdds, PayEarlierInSmallStacks) {
+  using Size = StepOdds::Size;
   StepOdds odds;
-  odds.LearnGains(2.5, 1, true);
+  odds.LearnGains(2.5, 1, Size::kFew);
   EXPECT_TRUE(odds.pays());
-  odds.LearnGains(1.2, 1, true);
+  odds.LearnGains(1.2, 1, Size::kFew);
   EXPECT_TRUE(odds.pays()) << "1.7 on average";
-  odds.LearnGains(1, 1, true);
+  odds.LearnGains(1, 1, Size::kFew);
   EXPECT_FALSE(odds.pays()) << "1.4";
+}
+
+TEST(StepOdds, PayEarlierStillInTinyStacksThatRock) {
+  const auto pay = [](int frames, double error) {
+    StepOdds odds;
+    for (int frame = 0; frame < frames; ++frame) odds.EndFrame(0, error);
+    odds.LearnGains(1.6, 1, StepOdds::Size::kFewest);
+    return odds.pays();
+  };
+  EXPECT_TRUE(pay(30, 0.01));
+  EXPECT_FALSE(pay(29, 0.01)) << "what hits something is done with it";
+  EXPECT_FALSE(pay(60, 0.001)) << "it rests";
 }
 
 TEST(StepOdds, PayWhereSweepsAloneDoHarm) {

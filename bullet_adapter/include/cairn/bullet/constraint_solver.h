@@ -66,13 +66,13 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   /// until the next substep, impulses until they are asked for again; empty before the first.
   ContactProblem problem() const;
   std::span<const double> impulses() const;
+  int place_of(const btRigidBody& body) const;  ///< In problem().bodies; -1: not, or no kFast.
 
   /// Writes the problem of the next substep to a file. CAIRN_RECORD in the environment, looked at
   /// when a solver is made, writes those of all substeps; see docs/recording.md.
   /// @param frame  its number, which the file carries; -1 if there is none
   void RecordNext(std::string path, std::int64_t frame = -1);
-  /// What was written, and what could not be.
-  const RecordedFiles& recorded() const;
+  const RecordedFiles& recorded() const;  ///< What was written, and what could not be.
 
   void prepareSolve(int bodies, int manifolds) override;
   btScalar solveGroup(btCollisionObject** bodies, int num_bodies, btPersistentManifold** manifolds,

@@ -45,7 +45,7 @@ struct Options {
   bool warm_start_joints = true;
   /// Whether bodies under tension are stiffened, if Settings::geometric_stiffness is on; kFast.
   bool geometric_stiffness = true;
-  /// Contacts that have lasted for 4 s become gentle: they rest .1 g h^2 deep, m_erp2 counts for
+  /// Contacts that have lasted for 2 s become gentle: they rest .1 g h^2 deep, m_erp2 counts for
   /// 3/4. Not with m_linearSlop, or a CFM, ERP, stiffness of points; docs/tuning.md. kFast.
   bool resting_slop = true;
   /// Two directions of friction where the world has one, Bullet's default, by which towers fall.

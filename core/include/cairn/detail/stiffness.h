@@ -75,13 +75,17 @@ class GeometricStiffness {
   /// across. What sweeps alone leave on an island is not yet its tension, so there it is averaged
   /// over some steps. Islands that touch nothing but themselves are left alone: raised inertia
   /// would take from their angular momentum. Does nothing if the report is not ok(). What is known
-  /// of bodies without joints is forgotten.
+  /// of bodies without joints is forgotten; that of bodies which are not there, or have no mass,
+  /// is kept until they are back, as they may be asleep.
   void Learn(double time_step, const ContactProblem& problem, const Impulses& impulses,
              const Report& report);
   /// Forgets all tension.
-  void Reset() { memories_.clear(); }
+  void Reset() {
+    memories_.clear();
+    absent_.clear();
+  }
   /// Nothing is remembered of any body.
-  bool empty() const { return memories_.empty(); }
+  bool empty() const { return memories_.empty() && absent_.empty(); }
 
  private:
   /// Of a body, by its id or place.
@@ -89,17 +93,23 @@ class GeometricStiffness {
     std::uint64_t key = 0;
     int place = 0;             ///< of the body in the last problem
     Matrix3 stiffness = {};    ///< K [N m], world axes
+    Matrix3 arms = {};         ///< of joints: simd::RaisedInertia [N^2 m^2], likewise
     Vector3 held = {};         ///< about principal axes [N m]
     double held_ratio = 0;     ///< the largest of these over moments
     Vector3 kept = {1, 1, 1};  ///< moments over raised moments, in the last step
     double inv_mass = 0;       ///< who it is
     double inv_inertia = 0;    ///< sum of its inverse moments, not lowered
-    bool seen = false;
+    bool seen = false, absent = false;
   };
+  static constexpr std::uint64_t kNobody = 0;
   /// A matrix that is its own transpose.
   struct Symmetric {
     double xx = 0, yx = 0, zx = 0, yy = 0, zy = 0, zz = 0;
     Matrix3 Whole() const;
+  };
+  /// Over the joints of a body.
+  struct Sums {
+    Symmetric stiffness, arms;
   };
   /// A body that may be above the threshold, and what is remembered of it.
   struct Strained {
@@ -129,9 +139,13 @@ class GeometricStiffness {
   Memory* Find(const Body& body, int place);
   Memory* FindMoved(std::uint64_t key);
   void NotePlaces(std::span<const Body> bodies);
+  /// Remembers bodies again that were absent.
+  void Recall(std::span<const Body> bodies, std::span<const char> jointed);
+  void KeepAbsent();
 
   Array<Memory> memories_;
-  Array<std::uint64_t> key_at_;  ///< by place: key of the body there
+  Array<Memory> absent_;         ///< of bodies that were not in the last problem, by key
+  Array<std::uint64_t> key_at_;  ///< by place: key of the body there, or kNobody
   Array<int> memory_at_;         ///< by place: in memories_, -1 for none
   Array<int> by_key_;            ///< memories_ by key, ascending; empty until asked for
   Array<Memory*> known_;         ///< by body: what is remembered of it, while that is learnt
@@ -145,7 +159,7 @@ class GeometricStiffness {
   Array<double> pull_;            ///< by body: whether joints may pull too hard
   Array<int> pulled_;             ///< bodies with an entry in sums_
   Array<int> place_;              ///< by body: in pulled_, -1 for none
-  Array<Symmetric> sums_;         ///< K of pulled_
+  Array<Sums> sums_;              ///< of pulled_
 };
 
 }  // namespace cairn
