@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -193,6 +194,13 @@ GeometricStiffness::Memory* GeometricStiffness::FindMoved(std::uint64_t key) {
   return found != by_key_.end() && memories_[*found].key == key ? &memories_[*found] : nullptr;
 }
 
+GeometricStiffness::Memory* GeometricStiffness::FindAbsent(std::uint64_t key) {
+  const auto found = std::lower_bound(
+      absent_.begin(), absent_.end(), key,
+      [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
+  return found == absent_.end() || found->key != key ? nullptr : &*found;
+}
+
 void GeometricStiffness::Recall(std::span<const Body> bodies, std::span<const char> jointed) {
   key_at_.resize(bodies.size(), kNobody);
   memory_at_.resize(bodies.size(), -1);
@@ -201,10 +209,8 @@ void GeometricStiffness::Recall(std::span<const Body> bodies, std::span<const ch
     if ((!jointed.empty() && jointed[i] == 0) || bodies[i].inv_mass == 0) continue;
     const std::uint64_t key = BodyNameOf(bodies[i], static_cast<int>(i));
     if (key_at_[i] == key) continue;
-    const auto found = std::lower_bound(
-        absent_.begin(), absent_.end(), key,
-        [](const Memory& memory, std::uint64_t wanted) { return memory.key < wanted; });
-    if (found == absent_.end() || found->key != key) continue;
+    Memory* const found = FindAbsent(key);
+    if (found == nullptr) continue;
     found->seen = some = true;
     if (found->inv_mass != bodies[i].inv_mass) continue;
     key_at_[i] = key;
@@ -215,11 +221,15 @@ void GeometricStiffness::Recall(std::span<const Body> bodies, std::span<const ch
 }
 
 void GeometricStiffness::KeepAbsent() {
-  const size_t before = absent_.size();
+  const auto absent = [](const Memory& memory) { return memory.absent; };
+  if (std::none_of(memories_.begin(), memories_.end(), absent)) return;
   for (const Memory& memory : memories_) {
-    if (memory.absent) absent_.push_back(memory);
+    // a body that was back without joints
+    Memory* const before = memory.absent ? FindAbsent(memory.key) : nullptr;
+    if (before != nullptr) before->seen = true;
   }
-  if (absent_.size() == before) return;
+  std::erase_if(absent_, [](const Memory& memory) { return memory.seen; });
+  std::copy_if(memories_.begin(), memories_.end(), std::back_inserter(absent_), absent);
   if (absent_.size() > kMostAbsent) return absent_.clear();
   std::sort(absent_.begin(), absent_.end(),
             [](const Memory& a, const Memory& b) { return a.key < b.key; });

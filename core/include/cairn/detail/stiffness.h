@@ -138,6 +138,7 @@ class GeometricStiffness {
   /// Of a body and its place. Bodies mostly keep their places.
   Memory* Find(const Body& body, int place);
   Memory* FindMoved(std::uint64_t key);
+  Memory* FindAbsent(std::uint64_t key);
   void NotePlaces(std::span<const Body> bodies);
   /// Remembers bodies again that were absent.
   void Recall(std::span<const Body> bodies, std::span<const char> jointed);
