@@ -12,8 +12,8 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
-/// The number that Bullet gives to each body that it makes, and shows to nobody: it has no other
-/// way to tell a body from one that had its address before.
+/// The number that Bullet gives to each body that it makes, and shows to nobody: nothing else tells
+/// a body from one that had its address before.
 int NumberOf(const btRigidBody& body);
 
 /// By what name the bodies of a world are known from substep to substep: Body::id. The first body

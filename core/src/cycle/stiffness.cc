@@ -11,6 +11,7 @@
 #include "cairn/detail/eigen.h"
 #include "cycle/joint_arms.h"
 #include "problem/body_name.h"
+#include "problem/islands.h"
 #include "simd/principal_axes.h"
 #include "simd/raised_inertia.h"
 
@@ -124,7 +125,7 @@ void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies,
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
     Body& body = bodies[i];
     body.strain = 0;
-    if (memories_.empty() || (!jointed.empty() && jointed[i] == 0)) continue;
+    if (memories_.empty() || (!jointed.empty() && jointed[i] == 0) || !CanMove(body)) continue;
     Memory* const memory = Find(body, i);
     if (memory == nullptr || memory->inv_mass != body.inv_mass) continue;
     // no axis has more: |row i of K|_1 / I_i <= sqrt(3) |K I^-1|
@@ -206,7 +207,7 @@ void GeometricStiffness::Recall(std::span<const Body> bodies, std::span<const ch
   memory_at_.resize(bodies.size(), -1);
   bool some = false;
   for (size_t i = 0; i < bodies.size(); ++i) {
-    if ((!jointed.empty() && jointed[i] == 0) || bodies[i].inv_mass == 0) continue;
+    if ((!jointed.empty() && jointed[i] == 0) || !CanMove(bodies[i])) continue;
     const std::uint64_t key = BodyNameOf(bodies[i], static_cast<int>(i));
     if (key_at_[i] == key) continue;
     Memory* const found = FindAbsent(key);
@@ -242,7 +243,7 @@ void GeometricStiffness::NotePlaces(std::span<const Body> bodies) {
   memory_at_.assign(bodies.size(), -1);
   for (size_t i = 0; i < bodies.size(); ++i) {
     // engines may leave bodies that are asleep where they are, without mass
-    key_at_[i] = bodies[i].inv_mass == 0 ? kNobody : BodyNameOf(bodies[i], static_cast<int>(i));
+    key_at_[i] = CanMove(bodies[i]) ? BodyNameOf(bodies[i], static_cast<int>(i)) : kNobody;
   }
   for (size_t m = 0; m < memories_.size(); ++m) {
     memory_at_[memories_[m].place] = static_cast<int>(m);
@@ -318,7 +319,7 @@ void GeometricStiffness::FindPulled(double time_step, const ContactProblem& prob
   pull_.assign(bodies, 0);
   known_.assign(bodies, nullptr);
   for (size_t i = 0; i < bodies && !memories_.empty(); ++i) {
-    known_[i] = Find(problem.bodies[i], static_cast<int>(i));
+    if (CanMove(problem.bodies[i])) known_[i] = Find(problem.bodies[i], static_cast<int>(i));
   }
   const auto asks = [this](int body) { return body != kWorld && known_[body] == nullptr; };
   for (const Joint& joint : problem.joints) {
@@ -477,7 +478,7 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     memory.absent = true;
   }
   for (size_t i = 0; i < bodies.size() && !memories_.empty(); ++i) {
-    if (known_[i] == nullptr || bodies[i].inv_mass == 0) continue;
+    if (known_[i] == nullptr) continue;
     Memory& memory = *known_[i];
     memory.absent = false;
     memory.place = static_cast<int>(i);

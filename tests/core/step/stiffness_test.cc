@@ -72,6 +72,28 @@ TEST(Stiffness, LeavesWhatPullsLittleAsItIsToTheBit) {
   }
 }
 
+// Engines leave out bodies that sleep, or leave them where they are and take their mass away.
+TEST(Stiffness, IsKeptOfWhatSleeps) {
+  Scene awake = test::HangingChain(3, 1000);
+  for (size_t i = 0; i < awake.bodies.size(); ++i) awake.bodies[i].id = 7 + i;
+  Scene others = test::HangingChain(1, 1);
+  others.bodies[0].id = 99;
+  Scene still = awake;
+  still.rows.clear();
+  for (Body& body : still.bodies) body.inv_mass = 0, body.inv_inertia = {};
+  for (const Scene& meanwhile : {others, still}) {
+    GeometricStiffness stiffness;
+    SolveAndLearn(awake, &stiffness);
+    const double strain = Raised(awake, &stiffness)[0].strain;
+    ASSERT_GT(strain, 2);
+    for (int frame = 0; frame < 100; ++frame) {
+      Raised(meanwhile, &stiffness);
+      SolveAndLearn(meanwhile, &stiffness);
+    }
+    EXPECT_NEAR(Raised(awake, &stiffness)[0].strain, strain, 1e-9 * strain);
+  }
+}
+
 TEST(Stiffness, KnowsNothingOfContacts) {
   const Scene scene = test::Tower(10);
   GeometricStiffness stiffness;

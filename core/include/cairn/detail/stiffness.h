@@ -75,7 +75,7 @@ class GeometricStiffness {
   /// across. What sweeps alone leave on an island is not yet its tension, so there it is averaged
   /// over some steps. Islands that touch nothing but themselves are left alone: raised inertia
   /// would take from their angular momentum. Does nothing if the report is not ok(). What is known
-  /// of bodies without joints is forgotten; that of bodies which are not there, or have no mass,
+  /// of bodies without joints is forgotten; that of bodies which are not there, or cannot move,
   /// is kept until they are back, as they may be asleep.
   void Learn(double time_step, const ContactProblem& problem, const Impulses& impulses,
              const Report& report);
