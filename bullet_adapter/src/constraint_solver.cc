@@ -15,6 +15,7 @@
 #include "cairn/solver.h"
 #include "fast_group.h"
 #include "gravity.h"
+#include "group/bad_objects.h"
 #include "group/odd_islands.h"
 
 namespace cairn::bullet {
@@ -98,11 +99,15 @@ Settings ForGroup(const Settings& user, const Options& options, const btContactS
 }  // namespace
 
 struct ConstraintSolver::Impl {
+  explicit Impl(ConstraintSolver* of) : self(of) {}
+
+  ConstraintSolver* self;
   Settings settings;
   Options options;
   Solver solver, solver_of_rows;  ///< Mode::kFast, and Mode::kReference
   GroupRows rows;
   FastGroup fast;
+  BadObjects bad_objects;
   OddIslands islands;
   /// What was wrong where Mode::kReference could solve it all the same, or with a part of the group
   /// that was left to it.
@@ -137,9 +142,21 @@ struct ConstraintSolver::Impl {
 
   /// False, and the report says why, if a setting is out of its range.
   bool AcceptSettings();
-  /// What OddIslands cut off, by Mode::kReference.
-  void SolveOdd(ConstraintSolver* self, const btContactSolverInfo& info, btIDebugDraw* debug_drawer,
-                btDispatcher* of_world);
+  /// What Bullet says beside a group.
+  struct Call {
+    const btContactSolverInfo& info;
+    btIDebugDraw* debug_drawer;
+    btDispatcher* dispatcher;
+  };
+  /// By Mode::kFast, all but what has bad numbers. False if it could not be solved.
+  /// @param group  becomes what there is to solve
+  bool SolveGood(const Call& call, Group* group);
+  /// By Mode::kFast, all but what OddIslands cuts off.
+  bool SolveMost(const Call& call, const Group& group,
+                 std::span<const btManifoldPoint* const> bad_points);
+  bool SolveFast(const Group& group, const btContactSolverInfo& info);
+  /// By Mode::kReference.
+  btScalar SolveAsBullet(const Call& call, const Group& group);
   std::string told;  ///< the last warning
 
   /// Takes a copy of the problem if it is to be recorded, on nobody's budget. Of a group that is
@@ -179,7 +196,7 @@ bool ConstraintSolver::Impl::AcceptSettings() {
 }
 
 ConstraintSolver::ConstraintSolver(const Settings& settings, const Options& options)
-    : impl_(std::make_unique<Impl>()) {
+    : impl_(std::make_unique<Impl>(this)) {
   impl_->settings = settings;
   impl_->options = options;
 }
@@ -254,48 +271,77 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   impl_->fell_back = impl_->solved_fast = impl_->recorded = false;
   impl_->refused.clear();
   impl_->times = {};
+  Group group{{bodies, static_cast<size_t>(num_bodies)},
+              {manifolds, static_cast<size_t>(num_manifolds)},
+              {constraints, static_cast<size_t>(num_constraints)}};
+  const Impl::Call call{info, debug_drawer, dispatcher};
   bool solved = false;
   if (impl_->options.mode == Mode::kFast) {
-    const Group group{{bodies, static_cast<size_t>(num_bodies)},
-                      {manifolds, static_cast<size_t>(num_manifolds)},
-                      {constraints, static_cast<size_t>(num_constraints)},
-                      UnitsFor(impl_->settings, {bodies, static_cast<size_t>(num_bodies)})};
-    const bool whole = AllOfKnownType(group.joints);
-    if (whole) {
-      solved = SolveFast(group, info);
-    } else if (impl_->islands.Cut(group)) {
-      solved = SolveFast(impl_->islands.others(), info);
-      if (solved) impl_->SolveOdd(this, info, debug_drawer, dispatcher);
+    group.units_per_metre = UnitsFor(impl_->settings, group.bodies);
+    solved = impl_->SolveGood(call, &group);
+    if (!solved) {
+      impl_->fell_back = true;
+      impl_->refused = complaint();
     }
-    impl_->fell_back = !solved || !whole;
-    if (!solved) impl_->refused = complaint();
   }
   btScalar result = 0;
   if (!solved) {
     impl_->fast.Forget();
-    result = btSequentialImpulseConstraintSolver::solveGroup(
-        bodies, num_bodies, manifolds, num_manifolds, constraints, num_constraints, info,
-        debug_drawer, dispatcher);
+    result = impl_->SolveAsBullet(call, group);
   }
   Warn(debug_drawer);
   if (impl_->recorder != nullptr) impl_->recorder->NextFrame();
   return result;
 }
 
-void ConstraintSolver::Impl::SolveOdd(ConstraintSolver* self, const btContactSolverInfo& info,
-                                      btIDebugDraw* debug_drawer, btDispatcher* of_world) {
-  const Group odd = islands.odd();
+bool ConstraintSolver::Impl::SolveGood(const Call& call, Group* group) {
+  const Group whole = *group;
+  if (bad_objects.CutThoseOfLast(whole)) {
+    *group = bad_objects.others();
+    fell_back = true;
+    refused = bad_objects.complaint();
+  }
+  if (SolveMost(call, *group, {})) return true;
+  const bool named = report.bad_body >= 0 || report.bad_row >= 0 || report.bad_joint >= 0 ||
+                     report.bad_manifold >= 0;
+  if (!named) return false;
+  const BadThings found = fast.FindBad();
+  std::string why = Describe(report);
+  if (bad_objects.Cut(whole, found, why)) {
+    *group = bad_objects.others();
+    why = bad_objects.complaint();
+  } else if (found.points.empty()) {
+    return false;
+  }
+  fast.Unread();
+  if (!SolveMost(call, *group, found.points)) return false;
+  fell_back = true;
+  refused = why;
+  return true;
+}
+
+bool ConstraintSolver::Impl::SolveMost(const Call& call, const Group& group,
+                                       std::span<const btManifoldPoint* const> bad_points) {
+  if (bad_points.empty() && AllOfKnownType(group.joints)) return SolveFast(group, call.info);
+  if (!islands.Cut(group, bad_points) || !SolveFast(islands.others(), call.info)) return false;
+  fell_back = true;
   // the report is that of all others
   Report of_others = std::exchange(report, {});
-  std::vector<btCollisionObject*> some(odd.bodies.begin(), odd.bodies.end());
-  std::vector<btPersistentManifold*> touching(odd.manifolds.begin(), odd.manifolds.end());
-  std::vector<btTypedConstraint*> joints(odd.joints.begin(), odd.joints.end());
-  const auto size = [](const auto& list) { return static_cast<int>(list.size()); };
-  self->btSequentialImpulseConstraintSolver::solveGroup(some.data(), size(some), touching.data(),
-                                                        size(touching), joints.data(), size(joints),
-                                                        info, debug_drawer, of_world);
+  SolveAsBullet(call, islands.odd());
   if (!report.ok()) refused = Describe(report);
   report = std::move(of_others);
+  return true;
+}
+
+btScalar ConstraintSolver::Impl::SolveAsBullet(const Call& call, const Group& group) {
+  // Bullet asks for lists that it could write to, and does not
+  const auto list = []<class Entry>(std::span<Entry* const> entries) {
+    return const_cast<Entry**>(entries.data());
+  };
+  const auto size = [](const auto& entries) { return static_cast<int>(entries.size()); };
+  return self->btSequentialImpulseConstraintSolver::solveGroup(
+      list(group.bodies), size(group.bodies), list(group.manifolds), size(group.manifolds),
+      list(group.joints), size(group.joints), call.info, call.debug_drawer, call.dispatcher);
 }
 
 void ConstraintSolver::allSolved(const btContactSolverInfo& info, btIDebugDraw* debug_drawer) {
@@ -318,61 +364,58 @@ void ConstraintSolver::reset() {
   impl_->fell_back = false;
 }
 
-bool ConstraintSolver::SolveFast(const Group& group, const btContactSolverInfo& info) {
-  if (!impl_->AcceptSettings()) return false;
-  FastGroup& fast = impl_->fast;
-  detail::Threads& threads = impl_->solver.threads();
-  threads.Follow(impl_->settings.threads, impl_->settings.executor);
-  threads.RecordTo(impl_->settings.tuning.spans);
+bool ConstraintSolver::Impl::SolveFast(const Group& group, const btContactSolverInfo& info) {
+  if (!AcceptSettings()) return false;
+  detail::Threads& threads = solver.threads();
+  threads.Follow(settings.threads, settings.executor);
+  threads.RecordTo(settings.tuning.spans);
   // from reading to writing back; how many are worth it the last substep tells
-  const detail::AwakeHelpers awake(&threads,
-                                   detail::ThreadsFor(fast.rows(), impl_->settings.threads));
+  const detail::AwakeHelpers awake(&threads, detail::ThreadsFor(fast.rows(), settings.threads));
   {
-    const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kRead});
-    Options options = impl_->options;
-    options.geometric_stiffness = impl_->Stiffens();
-    options.two_friction_directions &= !SweepsAsBullet(impl_->settings);
+    const SpanClock clock(settings.tuning.spans, 0, {SpanKind::kRead});
+    Options of_group = options;
+    of_group.geometric_stiffness = Stiffens();
+    of_group.two_friction_directions &= !SweepsAsBullet(settings);
     // what is swept in double precision is not rounded to floats before
-    if (PathOf(ForGroup(impl_->settings, impl_->options, info, 0, 1)) == Path::kReference)
-      options.contacts = ContactForm::kRows;
-    fast.Read(group, info, LimitsOf(ByIterations(impl_->settings, impl_->options), group.joints),
-              options, impl_->settings.substeps, &threads);
+    if (PathOf(ForGroup(settings, options, info, 0, 1)) == Path::kReference)
+      of_group.contacts = ContactForm::kRows;
+    fast.Read(group, info, LimitsOf(ByIterations(settings, options), group.joints), of_group,
+              settings.substeps, &threads);
   }
   if (fast.problem().bodies.empty()) {
     fast.Rest();
-    impl_->report = {};
-    impl_->report.stop = StopReason::kConverged;
-    impl_->report.elapsed = Passed(impl_->start, impl_->Now());
-    impl_->solved_fast = true;
+    report = {};
+    report.stop = StopReason::kConverged;
+    report.elapsed = Passed(start, Now());
+    solved_fast = true;
     return true;
   }
-  const bool recording = impl_->BeginRecording(fast.problem(), fast.impulses());
-  const nanoseconds built = impl_->Now();
-  Settings settings =
-      ForGroup(impl_->settings, impl_->options, info, fast.most_sweeps(), group.units_per_metre);
-  impl_->SetTimeLeft(&settings.budget);
-  impl_->solver.settings() = settings;
-  impl_->solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &impl_->report);
-  const nanoseconds solved = impl_->Now();
-  if (impl_->report.ok() && !fast.FitsBullet()) impl_->report.status = Status::kOverflow;
-  impl_->solved_fast = impl_->report.ok();
+  const bool recording = BeginRecording(fast.problem(), fast.impulses());
+  const nanoseconds built = Now();
+  Settings of_group = ForGroup(settings, options, info, fast.most_sweeps(), group.units_per_metre);
+  SetTimeLeft(&of_group.budget);
+  solver.settings() = of_group;
+  solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &report);
+  const nanoseconds solved = Now();
+  if (report.ok() && !fast.FitsBullet()) report.status = Status::kOverflow;
+  solved_fast = report.ok();
 
-  if (impl_->solved_fast) {
-    const SpanClock clock(impl_->settings.tuning.spans, 0, {SpanKind::kWrite});
-    if (impl_->Stiffens()) {
-      const SpanClock tension(impl_->settings.tuning.spans, 0, {SpanKind::kTension});
-      fast.Learn(info, impl_->report);
+  if (solved_fast) {
+    const SpanClock clock(settings.tuning.spans, 0, {SpanKind::kWrite});
+    if (Stiffens()) {
+      const SpanClock tension(settings.tuning.spans, 0, {SpanKind::kTension});
+      fast.Learn(info, report);
     }
-    fast.Write(info, impl_->solver.mean_velocities());
-    const nanoseconds write = Passed(solved, impl_->Now());
-    SetAside(write, &impl_->write_time);
-    impl_->finish_time = {};
-    impl_->times = {Passed(impl_->start, built), Passed(built, solved), write};
+    fast.Write(info, solver.mean_velocities());
+    const nanoseconds write = Passed(solved, Now());
+    SetAside(write, &write_time);
+    finish_time = {};
+    times = {Passed(start, built), Passed(built, solved), write};
   }
-  if (recording) impl_->recorder->End(settings, impl_->report);
-  if (!impl_->solved_fast) return false;
+  if (recording) recorder->End(of_group, report);
+  if (!solved_fast) return false;
   // 0 is the number that Bullet gives the first body
-  Analyse(group, group.bodies.empty() ? -2 : 0);
+  self->Analyse(group, group.bodies.empty() ? -2 : 0);
   return true;
 }
 

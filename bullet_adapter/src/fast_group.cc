@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "fast_group.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "cairn/detail/bad_input.h"
 #include "cairn/detail/spans.h"
 #include "cairn/detail/start.h"
 #include "contacts/prefetch_manifold.h"
@@ -30,7 +32,8 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   pushes_.Clear();
   // what is known of a world says nothing of another one; its info is its own
   if (std::exchange(world_, &info) != &info) Reset();
-  const btScalar last_step = std::exchange(time_step_, info.m_timeStep);
+  steps_before_ = steps_;
+  steps_.last = info.m_timeStep;
   substeps_ = substeps;
   if (!options.geometric_stiffness) stiffness_.Reset();
   bodies_.Begin(group.bodies, info, threads_);
@@ -41,17 +44,17 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
 
   const bool warm = (info.m_solverMode & SOLVER_USE_WARMSTARTING) != 0;
   const btScalar factor = warm ? info.m_warmstartingFactor : btScalar(0);
-  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0), time_step_,
+  joint_memory_.Begin(group.joints, options.warm_start_joints ? factor : btScalar(0), steps_.last,
                       group.units_per_metre, &group_);
   joint_builder_.Append(group.joints, info, limits, options.contacts);
 
   const double longer =
-      ShareOfStart(static_cast<double>(last_step), static_cast<double>(time_step_));
+      ShareOfStart(static_cast<double>(steps_before_.last), static_cast<double>(steps_.last));
   const btScalar of_contact = factor * static_cast<btScalar>(longer);
   const ContactStart start{of_contact, options.warm_start_friction ? of_contact : btScalar(0),
                            &twist_memory_};
   twist_memory_.Begin();
-  const ContactSoftness softness(info, options, resting_step_.Next(info.m_timeStep));
+  const ContactSoftness softness(info, options, steps_.resting.Next(info.m_timeStep));
   const btContactSolverInfo of_contacts = ForContacts(info, options);
   contacts_.Begin(of_contacts, limits, softness, start);
   const bool all = options.contacts == ContactForm::kManifolds && threads_->several() &&
@@ -117,7 +120,7 @@ ContactProblem FastGroup::problem() const {
           .twists = contacts_.twists(),
           .joints = group_.compact_joints,
           .joint_rows = group_.joint_rows,
-          .time_step = static_cast<double>(time_step_)};
+          .time_step = static_cast<double>(steps_.last)};
 }
 
 void FastGroup::Learn(const btContactSolverInfo& info, const Report& report) {
@@ -140,16 +143,48 @@ void FastGroup::Write(const btContactSolverInfo& info, std::span<const Velocity>
   contacts_.Keep(&twist_memory_);
 }
 
+BadThings FastGroup::FindBad() {
+  const BadInput bad = FindBadInput(problem(), impulses());
+  const auto holds = [](const std::vector<int>& places, int first, int count) {
+    const auto found = std::lower_bound(places.begin(), places.end(), first);
+    return found != places.end() && *found < first + count;
+  };
+  BadThings things;
+  for (const int body : bad.bodies) things.bodies.push_back(&bodies_.rigid(body));
+  int compact = 0;
+  for (const JointRows& joint : group_.joints) {
+    const bool is_bad = joint.written_out ? holds(bad.rows, joint.first_row, joint.rows)
+                                          : holds(bad.joints, compact++, 1);
+    if (is_bad) things.joints.push_back(joint.joint);
+  }
+  for (const PointRows& point : group_.points) {
+    const bool is_bad = holds(bad.rows, point.normal_row, 1) ||
+                        holds(bad.rows, point.friction_row, point.frictions) ||
+                        holds(bad.rows, point.twist_row, point.twists);
+    if (is_bad) things.points.push_back(point.point);
+  }
+  for (const int i : bad.manifolds) {
+    const Manifold& manifold = contacts_.manifolds()[i];
+    const auto points = contacts_.sources().subspan(manifold.first_point, manifold.points);
+    things.points.insert(things.points.end(), points.begin(), points.end());
+  }
+  return things;
+}
+
+void FastGroup::Unread() {
+  steps_ = steps_before_;
+  joint_memory_.Unread(&group_);
+}
+
 void FastGroup::Rest() {
   joint_memory_.Keep(group_);
   twist_memory_.Forget();
 }
 
 void FastGroup::Forget() {
-  time_step_ = 0;
+  steps_ = {};
   joint_memory_.Forget();
   twist_memory_.Forget();
-  resting_step_.Forget();
   stiffness_.Reset();
 }
 

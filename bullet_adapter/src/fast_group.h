@@ -13,8 +13,10 @@
 #include "cairn/bullet/precision.h"
 #include "contacts/contact_points.h"
 #include "contacts/contact_row_builder.h"
+#include "contacts/contact_softness.h"
 #include "contacts/split_impulse.h"
 #include "contacts/twist_memory.h"
+#include "group/bad_objects.h"
 #include "group/group.h"
 #include "group_problem.h"
 #include "joint_rows.h"
@@ -66,6 +68,11 @@ class FastGroup {
   /// @param means  Solver::mean_velocities()
   void Write(const btContactSolverInfo& info, std::span<const Velocity> means);
 
+  /// What Solve() refuses. @pre Read()
+  BadThings FindBad();
+  /// In place of Solve() and Write(): the group was not read. @pre Read()
+  void Unread();
+
   /// In place of Solve() and Write() where all bodies are asleep. @pre Read()
   void Rest();
 
@@ -83,12 +90,16 @@ class FastGroup {
   detail::Threads* threads_ = nullptr;
   BodyTable bodies_;
   GeometricStiffness stiffness_;
-  btScalar time_step_ = 0;
+  /// What is known of the lengths of steps.
+  struct Steps {
+    btScalar last = 0;  ///< [s], 0 if there was none
+    RestingStep resting;
+  };
+  Steps steps_, steps_before_;  ///< the present group included, and not
   int substeps_ = 1;
   const btContactSolverInfo* world_ = nullptr;  ///< whose tension stiffness_ knows
   GroupProblem group_;
   ContactPoints contacts_;
-  RestingStep resting_step_;
   std::vector<ContactMotion> motions_;  ///< one per body, if joints or contacts want them
   SplitImpulse pushes_;
   JointMemory joint_memory_;

@@ -156,6 +156,7 @@ void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar fac
                         btScalar time_step, double units_per_metre, GroupProblem* group) {
   constexpr size_t kAhead = 8;
   if (!std::exchange(kept_, false)) last_.Clear();
+  ++groups_;
   std::swap(last_.problem, *group);
   group->Clear();
   factor_ = factor;
@@ -174,7 +175,7 @@ void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar fac
       const int found = known->index.Find(joints[i]);
       if (found < 0) continue;
       Entry& entry = known->entries[found];
-      entry.met |= entry.Is(*joints[i], applied_[i]);
+      if (entry.met_in == 0 && entry.Is(*joints[i], applied_[i])) entry.met_in = groups_;
     }
   }
 }
@@ -190,8 +191,8 @@ bool JointMemory::StartFrom(Joints* joints, int place, const JointRows& joint,
   const int found = joints->index.Find(joint.joint);
   if (found < 0) return false;
   Entry& entry = joints->entries[found];
-  if (entry.met || !entry.Is(*joint.joint, applied_[place])) return false;
-  entry.met = true;
+  if (entry.met_in != 0 || !entry.Is(*joint.joint, applied_[place])) return false;
+  entry.met_in = groups_;
   const JointRows& last = joints->problem.joints[found];
   const bool same = last.rows == joint.rows && last.written_out == joint.written_out &&
                     last.a_moves == joint.a_moves && last.b_moves == joint.b_moves;
@@ -215,6 +216,17 @@ bool JointMemory::StartFrom(Joints* joints, int place, const JointRows& joint,
   return start(from.joint_rows, from.joint_impulses, group->joint_rows, &group->joint_impulses);
 }
 
+void JointMemory::Unread(GroupProblem* group) {
+  std::swap(last_.problem, *group);
+  last_.problem.Clear();
+  kept_ = true;
+  for (Joints* const known : {&last_, &asleep_}) {
+    for (Entry& entry : known->entries) {
+      if (entry.met_in == groups_) entry.met_in = 0;
+    }
+  }
+}
+
 void JointMemory::Keep(const GroupProblem& group) {
   KeepThoseAsleep();
   kept_ = true;
@@ -232,10 +244,10 @@ void JointMemory::Keep(const GroupProblem& group) {
 }
 
 void JointMemory::KeepThoseAsleep() {
-  const auto absent = [](const Entry& entry) { return !entry.met; };
+  const auto absent = [](const Entry& entry) { return entry.met_in == 0; };
   if (factor_ == 0 || std::none_of(last_.entries.begin(), last_.entries.end(), absent)) return;
   for (Entry& entry : last_.entries) {
-    if (!entry.met) entry.asleep_as = fell_asleep_++;
+    if (entry.met_in == 0) entry.asleep_as = fell_asleep_++;
   }
   // those that were removed are among them
   constexpr std::int64_t kMost = 1 << 14;
@@ -243,11 +255,11 @@ void JointMemory::KeepThoseAsleep() {
   asleep_.Filter([&](size_t i) {
     const Entry& entry = asleep_.entries[i];
     // another one may have the address of one that was removed
-    return !entry.met && entry.asleep_as >= fell_asleep_ - kMost &&
+    return entry.met_in == 0 && entry.asleep_as >= fell_asleep_ - kMost &&
            last_.index.Find(asleep_.problem.joints[i].joint) < 0;
   });
   for (size_t i = 0; i < last_.entries.size(); ++i) {
-    if (last_.entries[i].met) continue;
+    if (last_.entries[i].met_in != 0) continue;
     asleep_.Add(last_.entries[i], last_.problem.joints[i], last_.problem);
   }
 }

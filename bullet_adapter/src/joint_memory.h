@@ -28,6 +28,9 @@ class JointMemory {
              double units_per_metre, GroupProblem* group);
   /// Sets the start of the joint with that place in the group.
   void Start(int place, const JointRows& joint, GroupProblem* group);
+  /// In place of Keep(): remembers what it did before Begin().
+  /// @param group  of Begin(), which gets back what it had
+  void Unread(GroupProblem* group);
   /// Remembers a solved group, once its impulses are written to the joints.
   void Keep(const GroupProblem& group);
   void Forget();
@@ -39,7 +42,7 @@ class JointMemory {
     int type;
     btScalar applied_impulse;
     btScalar time_step;          ///< [s]
-    bool met = false;            ///< it was in a later group
+    std::int64_t met_in = 0;     ///< the later group that it was in, 0 for none
     std::int64_t asleep_as = 0;  ///< the how manieth, of those asleep
 
     bool Is(const btTypedConstraint& joint, btScalar applied) const;
@@ -66,6 +69,7 @@ class JointMemory {
   Joints last_;                    ///< those of the last group
   Joints asleep_;                  ///< those that have been in no group since
   std::int64_t fell_asleep_ = 0;   ///< how many ever have
+  std::int64_t groups_ = 0;        ///< so far, with the present one
   bool kept_ = false;              ///< the present group was
 };
 

@@ -270,14 +270,14 @@ TEST(ObjectContract, TheProblemAndItsImpulsesAreThoseOfTheReport) {
   EXPECT_NEAR(measured.residual_max, solver.report().residual_max, 1e-4);
 }
 
-TEST(ObjectContract, ANanFallsBackAndTheNextSubstepDoesNot) {
+TEST(ObjectContract, ANanIsNamedAndForgottenInTheNextSubstep) {
   bullet::ConstraintSolver solver;
   const auto body = MakeBody(1, At(0, btScalar(0.5), 0)), ground = MakeBody(0, At(0, -1, 0));
   const auto manifold = Touch(body.get(), ground.get());
   body->setLinearVelocity({std::numeric_limits<btScalar>::quiet_NaN(), 0, 0});
   Solve(&solver, {body.get()}, {manifold.get()}, Info());
   EXPECT_TRUE(solver.fell_back());
-  EXPECT_EQ(solver.report().status, Status::kNotFinite);
+  EXPECT_NE(solver.complaint().find("nan"), std::string::npos) << solver.complaint();
 
   body->setLinearVelocity({0, 0, 0});
   body->setAngularVelocity({0, 0, 0});

@@ -235,20 +235,6 @@ TEST(Features, RollingFrictionStopsABall) {
   EXPECT_LT(speed_after(btScalar(0.5)), 0.01);
 }
 
-TEST(Features, AGroupWithANanIsLeftToBulletAndReported) {
-  bullet::ConstraintSolver solver;
-  World world(&solver);
-  world.AddGround(10);
-  world.AddBox(btVector3(1, 1, 1) / 2,
-               {.mass = 1, .pose = At(0, btScalar(0.49), 0), .surface = {}});
-  world.Step();
-  ASSERT_TRUE(solver.report().ok());
-  world.dynamic_bodies()[0]->setLinearVelocity({std::numeric_limits<btScalar>::quiet_NaN(), 0, 0});
-  world.Step();
-  EXPECT_EQ(solver.report().status, Status::kNotFinite);
-  EXPECT_GE(solver.report().bad_row, 0);
-}
-
 TEST(Features, WhatOnlyTheReferenceModeCanTakeIsNamedAsWell) {
   bullet::ConstraintSolver solver;
   World world(&solver);

@@ -6,6 +6,7 @@
 #include <BulletDynamics/ConstraintSolver/btTypedConstraint.h>
 
 #include <span>
+#include <vector>
 
 #include "cairn/bullet/precision.h"
 
@@ -20,6 +21,23 @@ struct Group {
   std::span<btPersistentManifold* const> manifolds;
   JointSpan joints;
   double units_per_metre = 1;  ///< See Tuning.
+};
+
+/// Some of what is in a group.
+struct PartOfGroup {
+  std::vector<btCollisionObject*> bodies;
+  std::vector<btPersistentManifold*> manifolds;
+  std::vector<btTypedConstraint*> joints;
+
+  /// Good until it changes.
+  Group WithUnits(double units_per_metre) const {
+    return {bodies, manifolds, joints, units_per_metre};
+  }
+  void Clear() {
+    bodies.clear();
+    manifolds.clear();
+    joints.clear();
+  }
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

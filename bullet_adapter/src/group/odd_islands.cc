@@ -8,12 +8,6 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
-void OddIslands::Part::Clear() {
-  bodies.clear();
-  manifolds.clear();
-  joints.clear();
-}
-
 bool OddIslands::IsOdd(int tag) const {
   return tag >= 0 && std::find(tags_.begin(), tags_.end(), tag) != tags_.end();
 }
@@ -22,15 +16,28 @@ bool OddIslands::IsOdd(const btCollisionObject& a, const btCollisionObject& b) c
   return IsOdd(a.getIslandTag()) || IsOdd(b.getIslandTag());
 }
 
-bool OddIslands::Cut(const Group& group) {
+bool OddIslands::Enter(const btCollisionObject& a, const btCollisionObject& b) {
+  // what cannot move has none
+  const int tag = std::max(a.getIslandTag(), b.getIslandTag());
+  if (tag >= 0 && !IsOdd(tag)) tags_.push_back(tag);
+  return tag >= 0;
+}
+
+bool OddIslands::Cut(const Group& group, std::span<const btManifoldPoint* const> bad) {
   tags_.clear();
   for (const btTypedConstraint* const joint : group.joints) {
     if (IsOfKnownType(*joint)) continue;
-    // what cannot move has none
-    const int tag =
-        std::max(joint->getRigidBodyA().getIslandTag(), joint->getRigidBodyB().getIslandTag());
-    if (tag < 0) return false;
-    if (!IsOdd(tag)) tags_.push_back(tag);
+    if (!Enter(joint->getRigidBodyA(), joint->getRigidBodyB())) return false;
+  }
+  const auto has_bad_point = [&](const btPersistentManifold& manifold) {
+    for (int i = 0; i < manifold.getNumContacts(); ++i) {
+      if (std::find(bad.begin(), bad.end(), &manifold.getContactPoint(i)) != bad.end()) return true;
+    }
+    return false;
+  };
+  for (const btPersistentManifold* const manifold : group.manifolds) {
+    if (bad.empty() || !has_bad_point(*manifold)) continue;
+    if (!Enter(*manifold->getBody0(), *manifold->getBody1())) return false;
   }
   if (tags_.empty()) return false;
   units_per_metre_ = group.units_per_metre;

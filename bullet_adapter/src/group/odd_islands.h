@@ -2,7 +2,6 @@
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
-#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <vector>
 
@@ -13,35 +12,28 @@ namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
 /// Cuts a group in two: islands with a joint of a type that Bullet does not ship, which may count
-/// on what Bullet does around it, and all others. Islands are told by Bullet's tags.
+/// on what Bullet does around it, or with a contact that has bad numbers, and all others. Islands
+/// are told by Bullet's tags.
 class OddIslands {
  public:
   /// Both parts are good until the next call.
-  /// @return  false if there is no such joint, nothing else to solve, or it is not known what
-  ///          hangs on one
-  bool Cut(const Group& group);
+  /// @param bad  points with bad numbers
+  /// @return  false if there is no such joint or point, nothing else to solve, or it is not known
+  ///          what hangs on one
+  bool Cut(const Group& group, std::span<const btManifoldPoint* const> bad);
 
-  Group others() const { return others_.group(units_per_metre_); }
-  Group odd() const { return odd_.group(units_per_metre_); }
+  Group others() const { return others_.WithUnits(units_per_metre_); }
+  Group odd() const { return odd_.WithUnits(units_per_metre_); }
 
  private:
-  struct Part {
-    std::vector<btCollisionObject*> bodies;
-    std::vector<btPersistentManifold*> manifolds;
-    std::vector<btTypedConstraint*> joints;
-
-    Group group(double units_per_metre) const {
-      return {bodies, manifolds, joints, units_per_metre};
-    }
-    void Clear();
-  };
-
+  /// Notes the island of two objects; false if they are in none.
+  bool Enter(const btCollisionObject& a, const btCollisionObject& b);
   bool IsOdd(int tag) const;
   bool IsOdd(const btCollisionObject& a, const btCollisionObject& b) const;
 
   double units_per_metre_ = 1;
   std::vector<int> tags_;  ///< of odd islands
-  Part others_, odd_;
+  PartOfGroup others_, odd_;
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/detail/bad_input.h"
 #include "cairn/detail/eigen.h"
 #include "problem/bad_field.h"
 
@@ -255,6 +256,52 @@ Status ValidateManifold(const ContactProblem& problem, int index) {
   return FindBadField(problem, manifold).name == nullptr ? Status::kOk : Status::kWrongSize;
 }
 
+namespace {
+
+/// What is to be said of one thing of a problem, whose spans have the right sizes.
+class Judge {
+ public:
+  Judge(const ContactProblem& problem, const Impulses& impulses)
+      : problem_(problem), impulses_(impulses) {}
+
+  Status OfBody(int i) const {
+    // nobody else looks at motions
+    const bool finite = problem_.motions.empty() || Finite(problem_.motions[i]);
+    return finite ? CheckBody(problem_.bodies[i]) : Status::kNotFinite;
+  }
+  Status OfRow(int i) const { return ValidateRow(problem_, i, impulses_.rows[i]); }
+  Status OfJoint(int i) const {
+    const Status status = ValidateJoint(problem_, i);
+    return status == Status::kOk ? CheckJointRows(problem_, problem_.joints[i], impulses_) : status;
+  }
+  Status OfManifold(int i) const {
+    const Status status = ValidateManifold(problem_, i);
+    return status == Status::kOk ? CheckPoints(problem_, problem_.manifolds[i], impulses_) : status;
+  }
+
+ private:
+  const ContactProblem& problem_;
+  const Impulses& impulses_;
+};
+
+}  // namespace
+
+BadInput FindBadInput(const ContactProblem& problem, const Impulses& impulses) {
+  const Judge judge(problem, impulses);
+  const auto all_bad = [](size_t count, const auto& status_of) {
+    std::vector<int> bad;
+    for (int i = 0; i < static_cast<int>(count); ++i) {
+      if (status_of(i) != Status::kOk) bad.push_back(i);
+    }
+    return bad;
+  };
+  return {
+      .bodies = all_bad(problem.bodies.size(), [&](int i) { return judge.OfBody(i); }),
+      .rows = all_bad(problem.rows.size(), [&](int i) { return judge.OfRow(i); }),
+      .joints = all_bad(problem.joints.size(), [&](int i) { return judge.OfJoint(i); }),
+      .manifolds = all_bad(problem.manifolds.size(), [&](int i) { return judge.OfManifold(i); })};
+}
+
 Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   Report report;
   // the first of many that is refused
@@ -273,21 +320,11 @@ Report Validate(const ContactProblem& problem, const Impulses& impulses) {
   if (report.bad_setting.name != nullptr) report.status = Status::kWrongSize;
   if (!report.ok()) return report;
 
-  // nobody else looks at them
-  const bool seen = !problem.motions.empty();
-  const auto body = [&](int i) {
-    const bool finite = !seen || Finite(problem.motions[i]);
-    return finite ? CheckBody(problem.bodies[i]) : Status::kNotFinite;
-  };
-  const auto row = [&](int i) { return ValidateRow(problem, i, impulses.rows[i]); };
-  const auto joint = [&](int i) {
-    const Status status = ValidateJoint(problem, i);
-    return status == Status::kOk ? CheckJointRows(problem, problem.joints[i], impulses) : status;
-  };
-  const auto manifold = [&](int i) {
-    const Status status = ValidateManifold(problem, i);
-    return status == Status::kOk ? CheckPoints(problem, problem.manifolds[i], impulses) : status;
-  };
+  const Judge judge(problem, impulses);
+  const auto body = [&](int i) { return judge.OfBody(i); };
+  const auto row = [&](int i) { return judge.OfRow(i); };
+  const auto joint = [&](int i) { return judge.OfJoint(i); };
+  const auto manifold = [&](int i) { return judge.OfManifold(i); };
   if (refused(problem.bodies.size(), body, &report.bad_body)) {
     report.bad_setting = FindBadFieldOfBody(problem, report.bad_body, report.status);
     return report;

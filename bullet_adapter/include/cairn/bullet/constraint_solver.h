@@ -39,8 +39,9 @@ struct SubstepTimes {
 /// take. All of that is counted, never timed. A Budget::Time is for the whole substep, set-up and
 /// write-back included. Options::effort says whose numbers are read.
 ///
-/// What cannot be solved (a NaN, a setting out of its range) is left to Bullet's iteration:
-/// report() says so, and complaint() and the debug drawer in words.
+/// What cannot be solved (a setting out of its range, say) is left to Bullet's iteration: report()
+/// says so, and complaint() and the debug drawer in words. Bodies and joints with a NaN are left
+/// out.
 ///
 /// SOLVER_RANDMIZE_ORDER is ignored. In Mode::kFast btManifoldPoint::m_prevRHS of contacts is used,
 /// to know the directions of lateral impulses from one substep to the next, and joints start from
@@ -57,7 +58,8 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
   const Report& report() const;
   SubstepTimes times() const;
   /// Left to Mode::kReference, or from there to Bullet's iteration: a setting out of its range, a
-  /// Solve() refused; or islands, of which report() says nothing, with joints not of Bullet's.
+  /// Solve() refused; or, of which report() says nothing, islands with joints not of Bullet's, and
+  /// what is left out.
   bool fell_back() const;
   /// What is wrong, or was not recorded: "threads is 0, must be 1 to 1024". Empty if nothing.
   std::string complaint() const;
@@ -94,8 +96,6 @@ class ConstraintSolver : public btSequentialImpulseConstraintSolver {
  private:
   struct Impl;
 
-  /// False if the group was not solved.
-  bool SolveFast(const Group& group, const btContactSolverInfo& info);
   void Analyse(const Group& group, int first_companion);
   void Warn(btIDebugDraw* debug_drawer);
 
