@@ -40,6 +40,7 @@ class BlockSteps {
   void Postpone(int island) { MemoryOf(island)->Postpone(); }
   /// What steps and sweeps were seen to gain on the island.
   StepOdds& odds(int island) { return MemoryOf(island)->odds(); }
+  bool stepped_of_late(int island) { return MemoryOf(island)->stepped_of_late(); }
   /// What a step with so many factorisations costs on one island, as if it had lanes of its own,
   /// and what reading, packing, so many sweeps, and writing do. The first is a guess from the last
   /// frames while the graph is not known. Where it is above @p most either way, nobody looks: to

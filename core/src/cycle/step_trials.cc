@@ -77,6 +77,10 @@ void StepTrials::TakeOfGroup(int group, std::span<const int> islands) {
   }
 }
 
+bool StepTrials::Begins(int i) {
+  return parts_.steps->HasJoints(i) && !parts_.steps->stepped_of_late(i);
+}
+
 bool StepTrials::IsSure(int i) {
   if (frame_->weighs_steps() && parts_.steps->odds(i).wants_trial()) return false;
   return with_step_[i].energy <= kSureGain * before_[i].energy && GainOfStep(i) >= 0;
@@ -94,7 +98,8 @@ bool StepTrials::IsBetterAlone(int i) {
   if (IsSure(i)) return false;
   const StepTrial trial{.with_step = with_step_[i].energy,
                         .alone = alone_[i].energy,
-                        .closer = GainOfStep(i) > GainAlone(i)};
+                        .lead = GainOfStep(i) - GainAlone(i),
+                        .begins = Begins(i)};
   return trial.is_better_alone();
 }
 
@@ -107,7 +112,11 @@ void StepTrials::FindHarm() {
   const double unit = UnitOf(frame_->settings);
   for (int i : stepped_) {
     const Merit &before = merits_before_.of(i), &after = merits_with_step_.of(i);
-    const double error = unit * Largest(before_[i], unit);
+    double error = unit * Largest(before_[i], unit);
+    // sweeps from nothing soon leave small errors, and much before them
+    if (Begins(i)) {
+      error = std::max(error, unit * Largest(parts_.islands->report(i).residual_before, unit));
+    }
     const bool squeezed =
         !steps.HasJoints(i) && IsSqueezed({before_[i].energy, with_step_[i].energy, before, after});
     const bool harmful = squeezed || after.is_worse_than_none() ||
@@ -167,7 +176,7 @@ void StepTrials::CompareWithBefore() {
   for (int i : stepped_) {
     if (!chosen_.Has(i)) continue;
     const StepTrial trial{
-        .with_step = with_step_[i].energy, .alone = before_[i].energy, .closer = GainOfStep(i) > 0};
+        .with_step = with_step_[i].energy, .alone = before_[i].energy, .lead = GainOfStep(i)};
     if (verdicts_[i] == Verdict::kKept && !IsSure(i) && trial.is_better_alone()) {
       verdicts_[i] = Verdict::kBetterAlone;
     }

@@ -47,6 +47,8 @@ class StepTrials {
   /// Marks steps that put in energy, threw, flung or squeezed bodies, or left impulses that floats
   /// cannot hold.
   void FindHarm();
+  /// It has joints, and had no step of late.
+  bool Begins(int island);
   /// A step did so much that sweeps alone need not be tried.
   bool IsSure(int island);
   /// The sweeps without its step brought an island closer to its solution than those with it.

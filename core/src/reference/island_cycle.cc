@@ -204,7 +204,7 @@ bool IslandCycle::KeepBetter(Point before, bool sound, const Residual& with_step
   // what is not a number is not kept
   const StepTrial trial{.with_step = with_step.energy,
                         .alone = MeasureNow(meter).energy,
-                        .closer = merit < MeasureMerit(island_, at_.state).value()};
+                        .lead = MeasureMerit(island_, at_.state).value() - merit};
   if (!sound || trial.is_better_alone()) return false;
   at_ = std::move(stepped);
   return true;

@@ -50,6 +50,8 @@ class IslandMemory : public detail::Placed {
   /// The last Solve() left the island unfinished, and steps are rare: what accelerated sweeps add
   /// to the impulses of the start then comes late, and goes too far.
   bool overshoots() const { return unfinished_ && stepping_ <= kOfStep; }
+  /// A step was kept in one of the last Solve()s.
+  bool stepped_of_late() const { return stepping_ > 0; }
   /// @param stepped   a step was kept
   /// @param finished  sweeps did not end at their limit
   void EndSolve(bool stepped, bool finished);

@@ -35,15 +35,20 @@ struct Merit {
 /// What a step and the sweeps after it made of an island, and as many sweeps alone.
 struct StepTrial {
   double with_step, alone;  ///< Residual::energy
-  bool closer;              ///< phi is lower with the step: its velocities are closer
+  double lead;              ///< By how much phi is lower with the step [J]; above 0 it is closer.
+  bool begins = false;      ///< The island has joints, and had no step of late.
 
   /// Residuals see how rough a step leaves an island, and not how far it is from its solution. They
   /// decide where phi cannot: redundant rows that contradict each other lower it the larger they
-  /// get. What is not a number is not kept.
+  /// get. What is not a number is not kept. Sweeps that begin from nothing soon leave small
+  /// residuals, and a taut bridge that falls as a whole: there the lead of a step is far more than
+  /// what is rough could take back.
   bool is_better_alone() const {
-    return !(with_step <= alone) && !(closer && with_step <= kMostRoughness * alone);
+    const bool far_ahead = begins && lead > kFarAhead * with_step * with_step;
+    const bool closer = lead > 0 && (with_step <= kMostRoughness * alone || far_ahead);
+    return !(with_step <= alone) && !closer;
   }
-  static constexpr double kMostRoughness = 4;
+  static constexpr double kMostRoughness = 4, kFarAhead = 16;
 };
 
 /// Impulses of joints, see StepResult::joint_speed, that no step may leave: floats round them by

@@ -138,6 +138,23 @@ TEST(Merit, BoundsTheEnergyFromTheProblemAlone) {
   EXPECT_GT(tight, 0) << "no target put in anything, so nothing was tested";
 }
 
+TEST(StepTrial, IsWonByWhatIsLessRoughOrSurelyCloser) {
+  const auto alone_is_better = [](double with_step, double alone, double lead,
+                                  bool begins = false) {
+    return StepTrial{with_step, alone, lead, begins}.is_better_alone();
+  };
+  EXPECT_FALSE(alone_is_better(0.1, 0.2, -1)) << "where phi cannot tell";
+  EXPECT_TRUE(alone_is_better(0.2, 0.1, -1));
+  EXPECT_FALSE(alone_is_better(0.2, 0.1, 0.01)) << "closer, and not much rougher";
+  EXPECT_TRUE(alone_is_better(0.5, 0.1, 0.01));
+  // a bridge that falls as a whole: 1.1 J ahead, of which what is rough takes back 0.02 at most
+  EXPECT_FALSE(alone_is_better(0.14, 0.03, 1.1, true));
+  EXPECT_TRUE(alone_is_better(0.14, 0.03, 1.1, false)) << "joints that contradict each other?";
+  EXPECT_TRUE(alone_is_better(0.14, 0.03, 0.1, true));
+  EXPECT_TRUE(alone_is_better(std::nan(""), 0.1, 1));
+  EXPECT_TRUE(alone_is_better(0.2, 0.1, std::nan("")));
+}
+
 TEST(Guards, ScaleAStartThatIsWorseThanNone) {
   const Scene scene = test::Tower(6);
   const std::vector<double> good = test::Solve(test::PlainSweeps(200), scene).x;
