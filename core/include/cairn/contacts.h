@@ -6,7 +6,7 @@
 #include <span>
 
 #include "cairn/contact_problem.h"
-#include "cairn/detail/memory.h"
+#include "cairn/detail/start_memory.h"
 
 namespace cairn {
 
@@ -55,9 +55,10 @@ struct PositionError {
 };
 
 /// Makes manifolds of what collision detection found, and starts points that were there in the last
-/// frame from what they exerted then. In each frame: Begin(), Add() for each Touch, Solve() with
-/// manifolds(), points() and impulses(). A frame with no more points than an earlier one allocates
-/// nothing.
+/// frame from what they exerted then; those of which no body could move since, being asleep without
+/// mass or left out, from what they exerted before. In each frame: Begin(), Add() for each Touch,
+/// Solve() with manifolds(), points() and impulses(). A frame with no more points than an earlier
+/// one allocates nothing.
 ///
 /// The bias b of a point of depth d with approach speed -v0 before the step:
 ///   gap (d < 0):            b = d / h, so that the step may close the gap and no more;
@@ -91,19 +92,7 @@ class Contacts {
   PositionError deepest() const { return deepest_; }  ///< Of the points added since Begin() [m].
 
  private:
-  struct Key {
-    std::uint64_t id;
-    std::uint32_t feature;
-    friend auto operator<=>(const Key&, const Key&) = default;
-  };
-  struct Kept {
-    Key key;
-    int place;  ///< in the last frame
-    ContactImpulse impulse;
-  };
-
   void AddPoint(const Touch& touch, const TouchPoint& from, Manifold* manifold);
-  ContactImpulse StartAt(const Key& key) const;
 
   ContactOptions options_;
   StepInput step_;
@@ -111,8 +100,7 @@ class Contacts {
   Array<Manifold> manifolds_;
   Array<ContactPoint> points_;
   Array<ContactImpulse> impulses_;
-  Array<Key> keys_;   ///< of points_
-  Array<Kept> kept_;  ///< of the last frame, by key
+  detail::StartMemory memory_;
 };
 
 }  // namespace cairn

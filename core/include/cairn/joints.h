@@ -58,14 +58,15 @@ struct JointGear {
   int teeth = 1;     ///< Not 0. Below 0 it turns the other way: a ring, a belt.
 };
 
-/// Makes joints, and starts their rows from what they exerted in the last frame. In each frame:
-/// Begin(), Add() for each joint, Solve() with joints(), rows() and impulses(). A frame with no
-/// more joints than an earlier one allocates nothing.
+/// Makes joints, and starts their rows from what they exerted in the last frame, or, as Contacts,
+/// before they fell asleep. In each frame: Begin(), Add() for each joint, Solve() with joints(),
+/// rows() and impulses(). A frame with no more joints than an earlier one allocates nothing.
 ///
 /// Rows of an axis, in this order, so that the same kind always has the same rows (C: position, h:
 /// time step; w = dC/dt):
 ///   held:    w = -erp (C - lo) / h;
-///   limit:   the nearer one: w >= (lo - C) / h where there is room, erp (lo - C) / h where not;
+///   limit:   the nearer one, or both, hi last, where 30 m/s or 60 rad/s would pass them in a step:
+///            w >= (lo - C) / h where there is room, erp (lo - C) / h where not;
 ///   motor:   w = speed, or what limits leave of it, by an impulse within +-h max_motor_force;
 ///   spring:  an implicit step of it, within +-h max_spring_force: as soft contacts in contacts.h.
 class Joints {
@@ -103,10 +104,6 @@ class Joints {
 
  private:
   struct Direction;
-  struct Kept {
-    std::uint64_t id;
-    int first, rows;  ///< in kept_impulses_
-  };
 
   void Open(const JointSide& a, const JointSide& b);
   void AddAxis(const JointAxis& axis, const Direction& direction, double position);
@@ -122,9 +119,8 @@ class Joints {
   double gap_square_ = 0, angle_square_ = 0;  ///< of the joint that is added
   Array<Joint> joints_;
   Array<JointRow> rows_;
-  Array<float> impulses_, kept_impulses_;
-  Array<std::uint64_t> ids_;  ///< of joints_
-  Array<Kept> kept_;          ///< of the last frame, by id
+  Array<float> impulses_;
+  detail::StartMemory memory_;
 };
 
 /// The frame that these make, and where it starts. Both point into them: no Begin() or Add()

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/detail/start.h"
 #include "engine/room.h"
 #include "engine/step_body.h"
 
@@ -13,6 +12,9 @@ namespace cairn {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Of a ContactImpulse.
+constexpr int kNumbers = 7;
 
 /// What a normal row asks for.
 struct Normal {
@@ -38,7 +40,7 @@ struct Steps {
 /// it to the end of the step, part by part.
 double BounceSpeed(double restitution, const Approach& approach, double gap, const Steps& steps) {
   const double pressed = std::max(0.0, approach.start - approach.free);  // g' h
-  const double fall = pressed / steps.h, of_part = pressed / steps.parts;
+  const double fall = PerSecond(pressed, steps.h), of_part = pressed / steps.parts;
   const double before = approach.start - of_part / 2;
   const double energy = std::max(0.0, before * before / 2 + fall * gap);
   const double after = restitution * restitution * energy - fall * gap;
@@ -50,13 +52,14 @@ double BounceSpeed(double restitution, const Approach& approach, double gap, con
 Normal NormalOf(const ContactOptions& options, double restitution, const Approach& approach,
                 double depth, const Steps& steps) {
   const double h = steps.h;
-  Normal row{.bias = depth / h, .compliance = 0, .is_speed = false};
+  Normal row{.bias = SpeedToPass(depth, h), .compliance = 0, .is_speed = false};
   if (depth >= 0) {
     const double frequency = std::min(options.frequency, 0.25 / h);
     const SoftRow soft = frequency > 0
                              ? Soften(frequency, options.damping_ratio, approach.mobility, h)
                              : SoftRow{.share = options.erp, .compliance = 0};
-    row.bias = std::min(options.max_push, soft.share * std::max(0.0, depth - options.slop) / h);
+    const double back = soft.share * std::max(0.0, depth - options.slop);
+    row.bias = std::min(options.max_push, PerSecond(back, h));
     row.compliance = soft.compliance;
     row.is_speed = frequency > 0;
   }
@@ -70,41 +73,24 @@ Normal NormalOf(const ContactOptions& options, double restitution, const Approac
 }  // namespace
 
 Contacts::Contacts(const ContactOptions& options, Memory* memory)
-    : options_(options),
-      manifolds_(memory),
-      points_(memory),
-      impulses_(memory),
-      keys_(memory),
-      kept_(memory) {}
+    : options_(options), manifolds_(memory), points_(memory), impulses_(memory), memory_(memory) {}
 
 void Contacts::Begin(const StepInput& step) {
-  const auto share = static_cast<float>(ShareOfStart(step_.time_step, step.time_step));
-  kept_.reserve(keys_.size());
-  kept_.clear();
-  for (size_t i = 0; i < keys_.size(); ++i) {
-    if (keys_[i].id == 0) continue;
-    ContactImpulse start = impulses_[i];
-    start.normal *= share;
-    for (float& tangential : start.tangential) tangential *= share;
-    kept_.push_back({keys_[i], static_cast<int>(i), start});
-  }
-  // of two with one name the first counts; a stable sort would allocate
-  std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
-    return a.key != b.key ? a.key < b.key : a.place < b.place;
-  });
+  static_assert(sizeof(ContactImpulse) == kNumbers * sizeof(float));
+  const float* const last = impulses_.empty() ? nullptr : &impulses_[0].normal;
+  memory_.Begin({last, kNumbers * impulses_.size()}, step.bodies, step.time_step);
   step_ = step;
   deepest_ = {};
   manifolds_.clear();
   points_.clear();
   impulses_.clear();
-  keys_.clear();
 }
 
 void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
   MakeRoom(points.size() / Manifold::kMostPoints + 1, &manifolds_);
   MakeRoom(points.size(), &points_);
   MakeRoom(points.size(), &impulses_);
-  MakeRoom(points.size(), &keys_);
+  memory_.Reserve(points.size());
   Manifold* manifold = nullptr;
   for (const TouchPoint& point : points) {
     if (-point.depth > options_.max_gap) continue;
@@ -118,8 +104,12 @@ void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
       manifold->soft = options_.frequency > 0;
     }
     AddPoint(touch, point, manifold);
-    keys_.push_back({touch.id, point.feature});
-    impulses_.push_back(StartAt(keys_.back()));
+    ContactImpulse& impulse = impulses_.emplace_back();
+    const auto start = memory_.Add({touch.id, point.feature}, touch.body_a, touch.body_b, kNumbers);
+    if (start.impulses == nullptr) continue;
+    std::copy_n(start.impulses, kNumbers, &impulse.normal);
+    impulse.normal *= start.share;
+    for (float& tangential : impulse.tangential) tangential *= start.share;
   }
 }
 
@@ -154,14 +144,6 @@ void Contacts::AddPoint(const Touch& touch, const TouchPoint& from, Manifold* ma
   point.bias = static_cast<float>(row.bias);
   point.friction = static_cast<float>(touch.friction);
   point.compliance = static_cast<float>(row.compliance);
-}
-
-ContactImpulse Contacts::StartAt(const Key& key) const {
-  if (key.id == 0) return {};
-  const auto found =
-      std::lower_bound(kept_.begin(), kept_.end(), key,
-                       [](const Kept& kept, const Key& wanted) { return kept.key < wanted; });
-  return found != kept_.end() && found->key == key ? found->impulse : ContactImpulse{};
 }
 
 }  // namespace cairn

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/detail/start.h"
 #include "engine/angle.h"
 #include "engine/room.h"
 #include "engine/step_body.h"
@@ -16,6 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr JointAxis kHeld{.lo = 0, .hi = 0};
+/// What is hit may move this fast within a step: axes with less room have rows for both limits.
+constexpr double kFast = 30, kFastTurn = 60;  // [m/s], [rad/s]
 
 /// Twist of a against b about their x axes, and the axis that it turns about while the angle
 /// between these stays as it is.
@@ -71,33 +72,15 @@ JointKind ConeTwistJoint(double cone, const JointAxis& twist) {
 double TwistOf(const JointSide& a, const JointSide& b) { return FindTwist(a, b).angle; }
 
 Joints::Joints(double erp, Memory* memory)
-    : erp_(erp),
-      joints_(memory),
-      rows_(memory),
-      impulses_(memory),
-      kept_impulses_(memory),
-      ids_(memory),
-      kept_(memory) {}
+    : erp_(erp), joints_(memory), rows_(memory), impulses_(memory), memory_(memory) {}
 
 void Joints::Begin(const StepInput& step) {
-  kept_.reserve(joints_.size());
-  kept_.clear();
-  for (size_t i = 0; i < joints_.size(); ++i) {
-    if (ids_[i] != 0) kept_.push_back({ids_[i], joints_[i].first_row, joints_[i].rows});
-  }
-  // of two with one name the first counts; a stable sort would allocate
-  std::sort(kept_.begin(), kept_.end(), [](const Kept& a, const Kept& b) {
-    return a.id != b.id ? a.id < b.id : a.first < b.first;
-  });
-  kept_impulses_.swap(impulses_);
-  const auto share = static_cast<float>(ShareOfStart(step_.time_step, step.time_step));
-  for (float& impulse : kept_impulses_) impulse *= share;
+  memory_.Begin(impulses_, step.bodies, step.time_step);
   step_ = step;
   gap_ = angle_ = {};
   joints_.clear();
   rows_.clear();
   impulses_.clear();
-  ids_.clear();
 }
 
 int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, std::uint64_t id) {
@@ -150,7 +133,7 @@ int Joints::AddGear(const JointGear& a, const JointGear& b, std::uint64_t id) {
 
 void Joints::Open(const JointSide& a, const JointSide& b) {
   MakeRoom(1, &joints_);
-  MakeRoom(1, &ids_);
+  memory_.Reserve(1);
   MakeRoom(Joint::kMostRows, &rows_);
   MakeRoom(Joint::kMostRows, &impulses_);
   Joint& joint = joints_.emplace_back();
@@ -181,7 +164,7 @@ void Joints::TakeBack(double error, JointRow* row) {
   const std::uint32_t bit = std::uint32_t{1} << (joint.rows - 1);
   joint.errors |= bit;
   ((joint.angular & bit) != 0 ? angle_square_ : gap_square_) += error * error;
-  row->target = static_cast<float>(-erp_ * error / step_.time_step);
+  row->target = static_cast<float>(PerSecond(-erp_ * error, step_.time_step));
 }
 
 void Joints::AddAxis(const JointAxis& axis, const Direction& direction, double position) {
@@ -199,18 +182,24 @@ void Joints::AddAxis(const JointAxis& axis, const Direction& direction, double p
     TakeBack(position - axis.lo, &row);
     least = most = row.target;
   } else if (axis.lo > -kInfinity || axis.hi < kInfinity) {
+    const auto limit = [&](bool lower) {
+      const double to_limit = (lower ? axis.lo : axis.hi) - position;
+      const bool inside = lower ? to_limit <= 0 : to_limit >= 0;
+      JointRow& row = AddRow(direction);
+      if (inside) {
+        row.target = static_cast<float>(SpeedToPass(to_limit, h));
+      } else {
+        TakeBack(-to_limit, &row);
+      }
+      lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
+      return static_cast<double>(row.target);
+    };
+    least = SpeedToPass(axis.lo - position, h);
+    most = SpeedToPass(axis.hi - position, h);
+    const bool narrow = axis.hi - axis.lo < h * (direction.turns ? kFastTurn : kFast);
     const bool lower = position - axis.lo <= axis.hi - position;
-    const double to_limit = (lower ? axis.lo : axis.hi) - position;
-    const bool inside = lower ? to_limit <= 0 : to_limit >= 0;
-    JointRow& row = AddRow(direction);
-    if (inside) {
-      row.target = static_cast<float>(to_limit / h);
-    } else {
-      TakeBack(-to_limit, &row);
-    }
-    lower ? bound(0, kInfinity, &row) : bound(-kInfinity, 0, &row);
-    least = lower ? row.target : (axis.lo - position) / h;
-    most = lower ? (axis.hi - position) / h : row.target;
+    if (narrow || lower) least = limit(true);
+    if (narrow || !lower) most = limit(false);
   }
   if (axis.max_motor_force > 0) {
     JointRow& row = AddRow(direction);
@@ -223,11 +212,11 @@ void Joints::AddAxis(const JointAxis& axis, const Direction& direction, double p
         Mobility(step_, joint.body_a, direction.a) + Mobility(step_, joint.body_b, direction.b);
     const SoftRow soft = Soften(axis.frequency, axis.damping_ratio, mobility, h);
     JointRow& row = AddRow(direction);
-    row.target = static_cast<float>(-soft.share * (position - axis.rest) / h);
+    row.target = static_cast<float>(PerSecond(-soft.share * (position - axis.rest), h));
     row.compliance = static_cast<float>(soft.compliance);
     joints_.back().soft = true;
-    if (axis.max_spring_force < kInfinity)
-      bound(-h * axis.max_spring_force, h * axis.max_spring_force, &row);
+    const double most_impulse = h > 0 ? h * axis.max_spring_force : 0;
+    if (most_impulse < kInfinity) bound(-most_impulse, most_impulse, &row);
   }
 }
 
@@ -261,15 +250,10 @@ int Joints::Close(std::uint64_t id) {
   };
   tell(gap_square_, &gap_);
   tell(angle_square_, &angle_);
-  ids_.push_back(id);
   impulses_.resize(rows_.size(), 0);
-  const auto found =
-      std::lower_bound(kept_.begin(), kept_.end(), id,
-                       [](const Kept& kept, std::uint64_t wanted) { return kept.id < wanted; });
-  const bool known = id != 0 && found != kept_.end() && found->id == id;
-  if (known && found->rows == joint.rows) {
-    std::copy_n(kept_impulses_.begin() + found->first, joint.rows,
-                impulses_.begin() + joint.first_row);
+  const auto start = memory_.Add({id, 0}, joint.body_a, joint.body_b, joint.rows);
+  for (int i = 0; i < joint.rows && start.impulses != nullptr; ++i) {
+    impulses_[joint.first_row + i] = start.share * start.impulses[i];
   }
   return static_cast<int>(joints_.size()) - 1;
 }

@@ -45,6 +45,18 @@ inline double Mobility(const StepInput& step, int body, const HalfRow& row) {
          row.angular.dot(View(b.inv_inertia) * row.angular);
 }
 
+/// What a way, or an impulse, comes to in every second of a step; 0 in one that takes no time.
+inline double PerSecond(double what, double time_step) {
+  return time_step > 0 ? what / time_step : 0;
+}
+
+/// The speed that uses up a way in a step, as far as anything is that fast.
+inline double SpeedToPass(double way, double time_step) {
+  constexpr double kFastest = 1e6;
+  if (way == 0) return 0;
+  return std::clamp(way / time_step, -kFastest, kFastest);
+}
+
 /// An implicit step of a spring and damper between bodies of J M^-1 J' = @p mobility.
 struct SoftRow {
   double share;       ///< of the error that the step takes back
@@ -53,8 +65,8 @@ struct SoftRow {
 
 inline SoftRow Soften(double frequency, double damping_ratio, double mobility, double time_step) {
   constexpr double kTwoPi = 6.283185307179586;
-  // where nothing moves, a row gives nothing
-  if (!(mobility > 0)) return {.share = 0, .compliance = 1};
+  // where nothing moves, or no time passes, a row gives nothing
+  if (!(mobility > 0 && time_step > 0)) return {.share = 0, .compliance = 1};
   const double omega = kTwoPi * frequency;
   const double k = omega * omega / mobility, c = 2 * damping_ratio * omega / mobility;
   const double stiff = c + time_step * k;

@@ -264,6 +264,27 @@ TEST(Contacts, StartALongerStepFromMore) {
   EXPECT_EQ(contacts.impulses()[0].heading, 4);
 }
 
+// An engine that is paused may make steps that take no time.
+TEST(Contacts, TakeNothingBackInAStepOfNoTime) {
+  SmallWorld world;
+  for (const double depth : {0.05, 0.0, -0.05}) {
+    world.things.push_back({.position = {0, kRadius - depth, 0}, .inertia = 0.004});
+  }
+  world.h = 0;
+  world.Step([](SmallWorld* w) {
+    for (int body = 0; body < 3; ++body) {
+      const std::array points{Lowest(*w, body)};
+      w->contacts.Add(OnGround(*w, body), points);
+    }
+    // stretched, and beyond a limit
+    const JointSide side = w->things[0].Side(0, {0, 1, 0});
+    w->joints.Add(SliderJoint({.lo = 0.5, .hi = 1, .speed = 3, .max_motor_force = 10}), side, {},
+                  1);
+    w->joints.AddDistance({.rest = 3, .frequency = 2}, side, {}, 2);
+  });
+  for (const Thing& thing : world.things) EXPECT_EQ(View(thing.velocity.linear).norm(), 0);
+}
+
 TEST(Contacts, LeaveOutWhatIsFarAndCutWhatIsMany) {
   const std::array bodies{Body{.inv_mass = 1}};
   Contacts contacts;

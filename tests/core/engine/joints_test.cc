@@ -169,6 +169,21 @@ TEST(Joints, LimitsStopBothWays) {
   }
 }
 
+// A button that is hit hard would pass the other limit within the step.
+TEST(Joints, NarrowLimitsStopBothWaysAtOnce) {
+  for (const double speed : {5.0, -29.0}) {
+    SmallWorld world;
+    world.gravity = 0;
+    world.things.push_back({.mass = 2});
+    world.things[0].velocity.linear[0] = speed;
+    for (int i = 0; i < 30; ++i) {
+      world.Step([](SmallWorld* w) { Hold(SliderJoint({.lo = -0.02, .hi = 0.02}), {0, 0, 0}, w); });
+      EXPECT_LE(std::abs(world.things[0].position.x()), 0.02 + 1e-6) << speed << " at " << i;
+    }
+    EXPECT_NEAR(world.things[0].position.x(), speed > 0 ? 0.02 : -0.02, 1e-6);
+  }
+}
+
 // A limit and a motor that asks for more than it leaves have no solution: both pulled at the joint.
 TEST(Joints, MotorsWithoutALimitOfTheirOwnStopAtLimits) {
   for (const double speed : {2.0, -2.0, 100.0}) {

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -75,6 +77,51 @@ struct SmallWorld {
     if (angle == 0) return;
     thing->turn = Eigen::AngleAxisd(angle, View(velocity.angular).normalized()) * thing->turn;
     thing->turn.normalize();
+  }
+};
+
+/// Planks on two pins, every fourth of them with a load that is 20 times as heavy.
+struct LoadedBridge {
+  static constexpr int kPlanks = 16;
+
+  SmallWorld world;
+  std::function<void(Joints*)> before_solve;  ///< may change what they start from
+
+  LoadedBridge() {
+    for (int i = 0; i < kPlanks; ++i) {
+      const bool loaded = i % 4 == 2;
+      world.things.push_back({.mass = loaded ? 200.0 : 10.0,
+                              .position = {0.5 * i, 0, 0},
+                              .inertia = loaded ? 8.0 : 0.4});
+    }
+  }
+
+  void Step() {
+    world.Step([this](SmallWorld* w) {
+      const Vector3d half(0.25, 0, 0);
+      for (int i = 0; i <= kPlanks; ++i) {
+        JointSide a{.anchor = Vector3d(0.5 * kPlanks - 0.25, 0, 0)}, b{.anchor = -half};
+        if (i < kPlanks) a = w->things[i].Side(i, -half);
+        if (i > 0) b = w->things[i - 1].Side(i - 1, half);
+        w->joints.Add(BallJoint(), a, b, static_cast<std::uint64_t>(i) + 1);
+      }
+      if (before_solve) before_solve(&w->joints);
+    });
+  }
+  /// The same, in something thick.
+  void StepDamped() {
+    Step();
+    for (Thing& thing : world.things) {
+      View(thing.velocity.linear) *= 0.97;
+      View(thing.velocity.angular) *= 0.97;
+    }
+  }
+  double Speed() const {
+    double fastest = 0;
+    for (const Thing& thing : world.things) {
+      fastest = std::max(fastest, View(thing.velocity.linear).norm());
+    }
+    return fastest;
   }
 };
 
