@@ -25,9 +25,37 @@ int PartsOf(std::size_t bodies) {
 
 void QuietBodies::Reserve(std::size_t bodies) {
   if (counts_.size() < bodies) counts_.resize(bodies);
+  by_id_.reserve(counts_.size());
   if (runs_.size() < bodies) runs_.resize(bodies);
   const auto parts = static_cast<std::size_t>(PartsOf(bodies));
   if (runs_of_.size() < parts) runs_of_.resize(parts);
+}
+
+bool QuietBodies::AnyMoved(const ContactProblem& problem, detail::Threads* threads) {
+  const int bodies = static_cast<int>(problem.bodies.size());
+  const auto look = [&](int first, int count) {
+    bool moved = false;
+    for (int i = first; i < first + count; ++i) {
+      const std::uint64_t id = problem.bodies[i].id;
+      moved |= id != 0 && counts_[i].id != id;
+    }
+    runs_of_[first / kBodiesOfPart] = moved ? 1 : 0;
+  };
+  threads->For(bodies, kBodiesOfPart, look, {SpanKind::kResults});
+  const auto parts = std::span(runs_of_).first(PartsOf(problem.bodies.size()));
+  return std::any_of(parts.begin(), parts.end(), [](int moved) { return moved != 0; });
+}
+
+void QuietBodies::Follow(std::span<const Body> bodies) {
+  by_id_.assign(counts_.begin(), counts_.begin() + static_cast<std::ptrdiff_t>(known_));
+  const auto before = [](const Count& a, const Count& b) { return a.id < b.id; };
+  std::sort(by_id_.begin(), by_id_.end(), before);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::uint64_t id = bodies[i].id;
+    if (id == 0 || counts_[i].id == id) continue;
+    const auto found = std::lower_bound(by_id_.begin(), by_id_.end(), Count{.id = id}, before);
+    counts_[i] = found != by_id_.end() && found->id == id ? *found : Count{};
+  }
 }
 
 int QuietBodies::LookAt(const ContactProblem& problem, std::span<const Velocity> velocities,
@@ -66,7 +94,10 @@ void QuietBodies::Tell(const ContactProblem& problem, std::span<const Velocity> 
                        std::span<const Velocity> means, const Speeds& speeds,
                        detail::Threads* threads, Report* report) {
   const int bodies = static_cast<int>(problem.bodies.size());
-  counts_.resize(bodies);
+  const auto end = static_cast<std::ptrdiff_t>(known_);
+  if (bodies > end) std::fill(counts_.begin() + end, counts_.begin() + bodies, Count{});
+  if (AnyMoved(problem, threads)) Follow(problem.bodies);
+  known_ = problem.bodies.size();
   const auto look = [&](int first, int count) {
     runs_of_[first / kBodiesOfPart] =
         LookAt(problem, velocities, means, speeds, report->island_of, first, count);

@@ -13,7 +13,7 @@
 namespace cairn {
 
 /// Says how fast the bodies of each island are after a step, and for how long they have been quiet.
-/// A body at another place than in the last frame, or of another name, starts anew.
+/// A body that was not in the last frame starts anew: by its id, or where it has none its place.
 class QuietBodies {
  public:
   /// What is quiet is slower.
@@ -29,7 +29,10 @@ class QuietBodies {
   void Tell(const ContactProblem& problem, std::span<const Velocity> velocities,
             std::span<const Velocity> means, const Speeds& speeds, detail::Threads* threads,
             Report* report);
-  void Forget() { counts_.clear(); }
+  void Forget() {
+    counts_.clear();
+    known_ = 0;
+  }
 
  private:
   struct Count {
@@ -44,13 +47,19 @@ class QuietBodies {
     double linear2, angular2;  ///< of the fastest
     int solves;                ///< of the least quiet
   };
+  /// Bodies with names are where others were in the last frame.
+  bool AnyMoved(const ContactProblem& problem, detail::Threads* threads);
+  /// Puts what is known of bodies with names where they are now.
+  void Follow(std::span<const Body> bodies);
   /// Those of a part of the bodies into runs_, from the number of its first body on. Returns how
   /// many.
   int LookAt(const ContactProblem& problem, std::span<const Velocity> velocities,
              std::span<const Velocity> means, const Speeds& speeds, std::span<const int> island_of,
              int first, int count);
 
-  Array<Count> counts_;  ///< by body
+  Array<Count> counts_;    ///< by body, and room for more
+  std::size_t known_ = 0;  ///< so many were in the last frame
+  Array<Count> by_id_;     ///< of the last frame, while bodies move
   Array<Run> runs_;
   Array<int> runs_of_;  ///< a part: so many
 };

@@ -303,20 +303,16 @@ class OneBlock {
   bool unusual_ = false;  ///< the row has more than the usual kind
 };
 
-template <class T>
-void Grow(size_t size, Array<T>* values) {
-  if (values->size() < size) values->resize(size);
-}
-
 }  // namespace
 
 void BlockPacker::Reserve(BlockData* blocks) const {
-  Grow(plan.data_lines(), &blocks->data);
-  Grow(plan.x_lines(), &blocks->x);
+  // not more than there is: some stages go over all of it
+  blocks->data.resize(plan.data_lines());
+  blocks->x.resize(plan.x_lines());
   if (!problem.manifolds.empty())
-    Grow(2 * static_cast<size_t>(plan.x_lines()), &blocks->directions);
-  Grow(plan.slots(), &blocks->bodies);
-  Grow(plan.d_ratio_lines(), &blocks->d_ratios);
+    blocks->directions.resize(2 * static_cast<size_t>(plan.x_lines()));
+  blocks->bodies.resize(plan.slots());
+  blocks->d_ratios.resize(plan.d_ratio_lines());
 }
 
 PackResult BlockPacker::Pack(int first_block, int count, const Impulses& impulses,

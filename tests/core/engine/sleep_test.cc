@@ -2,6 +2,7 @@
 // What a report says for sleeping: how fast the bodies of an island are, and for how long not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "cairn/solver.h"
@@ -125,6 +126,24 @@ TEST(Sleep, CountsSolvesThatLeftAllBodiesOfAnIslandQuiet) {
   world.bodies[1].velocity = {};
   world.Solve();
   EXPECT_EQ(world.island(0).quiet, 1);
+}
+
+TEST(Sleep, BodiesWithNamesMayBeAnywhere) {
+  Gliders world;
+  for (std::uint64_t id = 1; id <= 4; ++id) {
+    world.Join(world.Add({}, id), kWorld);
+  }
+  for (int n = 1; n <= 6; ++n) {
+    world.Solve();
+    for (int body = 0; body < 4; ++body) EXPECT_EQ(world.island(body).quiet, n);
+    std::rotate(world.bodies.begin(), world.bodies.begin() + 1, world.bodies.end());
+  }
+  // one is removed as engines do, and one is new
+  world.bodies[1] = world.bodies.back();
+  world.bodies.back().id = 9;
+  world.Solve();
+  for (int body = 0; body < 3; ++body) EXPECT_EQ(world.island(body).quiet, 7);
+  EXPECT_EQ(world.island(3).quiet, 1);
 }
 
 TEST(Sleep, ABodyOfAnotherMassIsAnotherBodyWhereNoneHasAName) {
