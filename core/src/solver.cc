@@ -127,6 +127,8 @@ struct Solver::Impl : detail::Placed {
     int exceptions_ = std::uncaught_exceptions();
   };
 
+  /// Copies what was learnt; of both what can be found anew is forgotten.
+  void CopyTo(Impl* other);
   /// What was learnt. The next Attempt makes it anew.
   void Forget() {
     blocks.reset();
@@ -248,6 +250,38 @@ Settings& Solver::settings() { return impl_->user_settings; }
 const Settings& Solver::settings() const { return impl_->user_settings; }
 
 void Solver::Reset() { impl_->Forget(); }
+
+void Solver::CopyStateTo(Solver* other) {
+  if (other != this) impl_->CopyTo(other->impl_.get());
+}
+
+void Solver::Impl::CopyTo(Impl* other) {
+  const auto copy = [this](Impl* to) {
+    const detail::MemoryScope scope(to->heap.get());
+    auto fresh = std::make_unique<BlockSolver>(&to->threads.crew());
+    if (blocks != nullptr) fresh->memories() = blocks->memories();
+    return fresh;
+  };
+  auto of_other = copy(other), of_this = copy(this);
+  const detail::MemoryScope scope(other->heap.get());
+  other->quiet = quiet;
+  other->tension = tension;
+  other->block_prices = block_prices;
+  other->row_prices = row_prices;
+  other->in_parts = false;
+  other->blocks = std::move(of_other);
+  blocks = std::move(of_this);
+}
+
+Report Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
+                     std::span<Velocity> velocities) {
+  return Solve(problem, Impulses{.rows = impulses}, velocities);
+}
+
+void Solver::Solve(const ContactProblem& problem, std::span<double> impulses,
+                   std::span<Velocity> velocities, Report* report) {
+  Solve(problem, Impulses{.rows = impulses}, velocities, report);
+}
 
 std::size_t Solver::bytes() const { return impl_->heap.get()->bytes(); }
 std::size_t Solver::most_bytes() const { return impl_->heap.get()->most_bytes(); }

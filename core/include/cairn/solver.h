@@ -41,17 +41,16 @@ class Solver {
              std::span<Velocity> velocities, Report* report);
   /// A problem without joints and manifolds.
   [[nodiscard]] Report Solve(const ContactProblem& problem, std::span<double> impulses,
-                             std::span<Velocity> velocities) {
-    return Solve(problem, Impulses{.rows = impulses}, velocities);
-  }
+                             std::span<Velocity> velocities);
   void Solve(const ContactProblem& problem, std::span<double> impulses,
-             std::span<Velocity> velocities, Report* report) {
-    Solve(problem, Impulses{.rows = impulses}, velocities, report);
-  }
+             std::span<Velocity> velocities, Report* report);
 
   std::span<const Velocity> mean_velocities() const;  ///< Move bodies, with substeps or relax.
   /// Forgets everything learnt in earlier frames: the next Solve() is that of a new solver.
   void Reset();
+  /// Saves and loads: @p other knows of bodies and islands what this one does, and both find the
+  /// order of their rows anew, so that from here on they give the same bits.
+  void CopyStateTo(Solver* other);
   std::size_t bytes() const;       ///< Of the memory that it holds now; docs/engine.md, Memory.
   std::size_t most_bytes() const;  ///< Most that it ever held.
   detail::Threads& threads();  ///< For hosts that read and write their objects on the same ones.

@@ -14,7 +14,7 @@
 
 namespace cairn {
 
-/// What was learnt about each island, from frame to frame.
+/// What was learnt about each island, from frame to frame. A copy has copies of its own.
 class IslandMemories {
  public:
   /// The memory of an island, by the smallest BodyNameOf() of its bodies and the place of the
@@ -28,6 +28,11 @@ class IslandMemories {
  private:
   /// Small, as all of them are looked at in every frame.
   struct Remembered {
+    Remembered() = default;
+    Remembered(const Remembered& other)
+        : memory(std::make_unique<IslandMemory>(*other.memory)), last_frame(other.last_frame) {}
+    Remembered& operator=(const Remembered&) = delete;
+
     std::unique_ptr<IslandMemory> memory = std::make_unique<IslandMemory>();
     std::int64_t last_frame = 0;
   };

@@ -70,13 +70,15 @@ void IslandMemory::Postpone() { pause_ = kPriceAgain; }
 
 template <>
 BlockSystem<float>& IslandMemory::block_system(simd::Target target) {
-  if (float_system_ == nullptr) float_system_ = std::make_unique<BlockSystem<float>>(target);
-  return *float_system_;
+  auto& system = systems_.in_floats;
+  if (system == nullptr) system = std::make_unique<BlockSystem<float>>(target);
+  return *system;
 }
 template <>
 BlockSystem<double>& IslandMemory::block_system(simd::Target target) {
-  if (double_system_ == nullptr) double_system_ = std::make_unique<BlockSystem<double>>(target);
-  return *double_system_;
+  auto& system = systems_.in_doubles;
+  if (system == nullptr) system = std::make_unique<BlockSystem<double>>(target);
+  return *system;
 }
 
 void IslandMemory::Accepted(double least) {

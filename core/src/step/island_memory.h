@@ -19,7 +19,7 @@ struct FactorSize {
 };
 
 /// What the solver remembers of an island from frame to frame: the analysed system, the proximal
-/// term that worked, and whether steps pay.
+/// term that worked, and whether steps pay. A copy knows all but the system.
 class IslandMemory : public detail::Placed {
  public:
   StepSettings Step(const Settings& settings) const;
@@ -64,7 +64,7 @@ class IslandMemory : public detail::Placed {
   StepOdds& odds() { return odds_; }
 
   /// Of the double-precision path, which makes it.
-  std::shared_ptr<BodySystem>& body_system() { return body_system_; }
+  std::shared_ptr<BodySystem>& body_system() { return systems_.of_rows; }
   /// For steps on blocks: of the group whose first island this is.
   template <class T>
   BlockSystem<T>& block_system(simd::Target target);
@@ -74,9 +74,18 @@ class IslandMemory : public detail::Placed {
   /// A step counts for so many frames without one, and all of late for at most so many.
   static constexpr int kOfStep = 8, kMostStepping = 60;
 
-  std::shared_ptr<BodySystem> body_system_;
-  std::unique_ptr<BlockSystem<float>> float_system_;
-  std::unique_ptr<BlockSystem<double>> double_system_;
+  /// Analysed graphs: a copy begins without.
+  struct Systems {
+    Systems() = default;
+    Systems(const Systems&) {}
+    Systems& operator=(const Systems&) = delete;
+
+    std::shared_ptr<BodySystem> of_rows;
+    std::unique_ptr<BlockSystem<float>> in_floats;
+    std::unique_ptr<BlockSystem<double>> in_doubles;
+  };
+
+  Systems systems_;
   StepOdds odds_;
   double softening_ = 1;  ///< factor on Tuning::proximal
   double least_ = 0;      ///< what it does not fall below, since smaller ones failed; <= 1
