@@ -155,6 +155,50 @@ static void PointsStartFromTheLastFrame(void) {
   FreeWorld(&world);
 }
 
+static void StepStack(World* world, int frames) {
+  for (int frame = 0; frame < frames; ++frame) {
+    Begin(world);
+    for (int i = 0; i < world->count; ++i) AddBoxOnBox(world, i);
+    End(world);
+  }
+}
+
+static void GoesBackToWhatWasSaved(void) {
+  const CairnFrameSettings settings = cairnDefaultFrameSettings();
+  World world, saved;
+  MakeWorld(&settings, 5, &world);
+  MakeWorld(&settings, 5, &saved);
+  for (int i = 0; i < 5; ++i) world.things[i].position[1] = 0.55 + 1.05 * i;
+  StepStack(&world, 40);
+  CHECK(cairnCopyFrame(world.frame, saved.frame) == cairnOk);
+  CHECK(cairnCopyState(world.solver, saved.solver) == cairnOk);
+  memcpy(saved.things, world.things, sizeof world.things);
+  memcpy(saved.bodies, world.bodies, sizeof world.bodies);
+  StepStack(&world, 20);
+  Thing after[kMostThings];
+  memcpy(after, world.things, sizeof after);
+
+  CHECK(cairnCopyFrame(saved.frame, world.frame) == cairnOk);
+  CHECK(cairnCopyState(saved.solver, world.solver) == cairnOk);
+  memcpy(world.things, saved.things, sizeof world.things);
+  memcpy(world.bodies, saved.bodies, sizeof world.bodies);
+  StepStack(&world, 20);
+  CHECK(memcmp(after, world.things, sizeof after) == 0);
+
+  /* what was copied begins anew before anything is added */
+  CHECK(cairnCopyFrame(world.frame, saved.frame) == cairnOk);
+  CairnTouch touch = cairnDefaultTouch();
+  touch.bodyA = 0;
+  CHECK(cairnAddTouch(saved.frame, &touch, NULL, 0) == cairnNoSuchBody);
+  CHECK(cairnCopyFrame(NULL, saved.frame) == cairnNullPointer);
+  CHECK(cairnCopyFrame(saved.frame, NULL) == cairnNullPointer);
+  CHECK(cairnCopyFrame(saved.frame, saved.frame) == cairnOk);
+  CHECK(cairnCopyState(NULL, saved.solver) == cairnNullPointer);
+  CHECK(cairnCopyState(saved.solver, NULL) == cairnNullPointer);
+  FreeWorld(&world);
+  FreeWorld(&saved);
+}
+
 /* The last call to a frame was refused as said, and added nothing. */
 static void Refused(CairnStatus status, CairnStatus expected, CairnFrame* frame, const char* said) {
   CHECK(status == expected);
@@ -337,6 +381,7 @@ int main(void) {
   ABallBouncesToTheSquareOfItsRestitution();
   ContactsBehaveAsTheirOptionsSay();
   PointsStartFromTheLastFrame();
+  GoesBackToWhatWasSaved();
   NamesBadTouches();
   RefusesOtherVersionsLayoutsAndSettings();
   TakesMemoryOfItsHost();

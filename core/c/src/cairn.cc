@@ -275,6 +275,14 @@ void cairnReset(CairnSolver* solver) {
   if (solver != nullptr) solver->solver.Reset();
 }
 
+CairnStatus cairnCopyState(CairnSolver* solver, CairnSolver* other) {
+  if (solver == nullptr || other == nullptr) return cairnNullPointer;
+  return c::Guarded([&] {
+    solver->solver.CopyStateTo(&other->solver);
+    return cairnOk;
+  });
+}
+
 CairnStatus cairnSolve(CairnSolver* solver, const CairnProblem* problem,
                        const CairnSolution* solution, CairnReport* report) {
   if (solver == nullptr || problem == nullptr || solution == nullptr) {

@@ -70,10 +70,19 @@ struct CairnFrame : detail::Placed {
     step = {};
     bodies_of_c = nullptr;
   }
+  /// What starts the next frame. Nothing can be added before that is begun.
+  void CopyFrom(const CairnFrame& other) {
+    contacts = other.contacts;
+    joints = other.joints;
+    joint_erp = other.joint_erp;
+    bodies.clear();
+    step = {};
+    bodies_of_c = nullptr;
+  }
   int body_count() const { return static_cast<int>(bodies.size()); }
 
   detail::Heap::Owner heap;  ///< all of this lies in it, and itself
-  const double joint_erp;
+  double joint_erp;
   Contacts contacts{{}, heap.get()};
   Joints joints{joint_erp, heap.get()};
   Array<Body> bodies;
@@ -217,6 +226,12 @@ CairnStatus cairnBeginFrame(CairnFrame* frame, const CairnStep* step) {
     frame->contacts.Begin(frame->step);
     frame->joints.Begin(frame->step);
   });
+}
+
+CairnStatus cairnCopyFrame(const CairnFrame* frame, CairnFrame* other) {
+  if (frame == nullptr || other == nullptr) return Refuse(other, cairnNullPointer);
+  if (frame == other) return cairnOk;
+  return Accept(other, {}, [&] { other->CopyFrom(*frame); });
 }
 
 CairnStatus cairnAddTouch(CairnFrame* frame, const CairnTouch* touch, const CairnTouchPoint* points,

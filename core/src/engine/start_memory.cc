@@ -73,7 +73,7 @@ void StartMemory::WakeUp() {
 }
 
 void StartMemory::SortAsleep() {
-  // the newest are last
+  // those that fell asleep now are last; of the others some go
   if (asleep_.size() > kMostAsleep) {
     asleep_.erase(asleep_.begin(), asleep_.end() - static_cast<std::ptrdiff_t>(kMostAsleep / 2));
   }

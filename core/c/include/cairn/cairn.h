@@ -278,6 +278,9 @@ CAIRN_API size_t cairnBytes(const CairnSolver* solver, size_t* most);
 CAIRN_API CairnStatus cairnSetSettings(CairnSolver* solver, const CairnSettings* settings);
 /* Forgets what was learnt: the next step is that of a new solver. */
 CAIRN_API void cairnReset(CairnSolver* solver);
+/* Saves and loads: other knows of bodies and islands what solver does, and both find the order of
+   their rows anew, so that from here on they give the same bits. */
+CAIRN_API CairnStatus cairnCopyState(CairnSolver* solver, CairnSolver* other);
 
 /* Solves one step. report may be NULL. A problem no larger than an earlier one is solved without
    allocating on cairnFast, but for a step on contacts and joints of other bodies than before. */

@@ -158,6 +158,8 @@ CAIRN_API size_t cairnFrameBytes(const CairnFrame* frame, size_t* most);
 /* Bodies are copied. After cairnOutOfMemory, from this or cairnAdd...(), a frame is as new: begin
    again. One with no more contacts, joints and bodies than an earlier one allocates nothing. */
 CAIRN_API CairnStatus cairnBeginFrame(CairnFrame* frame, const CairnStep* step);
+/* Saves and loads: other, which is to be begun next, starts as frame would. */
+CAIRN_API CairnStatus cairnCopyFrame(const CairnFrame* frame, CairnFrame* other);
 /* More than four points become several manifolds. */
 CAIRN_API CairnStatus cairnAddTouch(CairnFrame* frame, const CairnTouch* touch,
                                     const CairnTouchPoint* points, int32_t count);
