@@ -250,15 +250,8 @@ void BodyTable::Stiffen(std::span<btTypedConstraint* const> joints, btScalar par
                 rigids_[raised.body]->getInvInertiaTensorWorld() * time_step_);
     // what gyroscopic terms turn a spin into is spin as well
     const Eigen::Vector3d spin = ToEigen(motion.spin + motion.external_spin) - torque_spin;
-    Vector3 relative[GeometricStiffness::kMostPartners];
-    for (int k = 0; k < raised.partners; ++k) {
-      const int other = raised.partner[k].body;
-      const btVector3 velocity =
-          (other == kWorld ? btVector3(0, 0, 0) : motions_[other].velocity) - motion.velocity;
-      relative[k] = ToEigen(velocity);
-    }
     const Eigen::Vector3d change = Eigen::Matrix3d(raised.response) * torque_spin - torque_spin +
-                                   Eigen::Vector3d(raised.Damp(part, spin, relative));
+                                   Eigen::Vector3d(raised.Damp(part, spin));
     for (int k = 0; k < 3; ++k) motion.external_spin[k] += static_cast<btScalar>(change[k]);
   }
 }

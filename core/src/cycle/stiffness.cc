@@ -36,11 +36,6 @@ constexpr double kKeep = 0.9;
 /// Body::strain from which on joints take back less of their errors. From 4 on chains under heavy
 /// loads lose 3 % of their energy in 10 s and gape twice as far, from 16 on they gain 2 %.
 constexpr double kSlowed = 8;
-/// Over which the mean is taken of how partners go round a body [s]: what swings to and fro does
-/// not count. With a third of it arms that motors turn are no longer held.
-constexpr double kOrbitTime = 5.0 / 3;
-/// What goes round further in a step [rad] is not seen to.
-constexpr double kMostTurn = 3;
 /// Moments of inertia that are this close have no axes of their own.
 constexpr double kSameMoment = 1e-3;
 /// Arms of joints whose squares across a line are this much less than along it lie on it.
@@ -139,7 +134,6 @@ void GeometricStiffness::FindStrained(double time_step, std::span<Body> bodies,
     body.strain = time_step * time_step * std::max(most, memory->held_ratio);
     if (body.strain <= kThreshold) {
       View(memory->held) *= kHold;
-      View(memory->orbit) *= kHold;
       memory->kept = {1, 1, 1};
     } else {
       strained_.push_back({i, memory});
@@ -162,78 +156,11 @@ void GeometricStiffness::TakeRaised(const simd::RaisedInertia& lanes, size_t lan
   body.strain = lanes.strain[lane];
   if (body.strain <= kThreshold) return;
   body.inv_inertia = inv_inertia;
-  Raised& raised = raised_.emplace_back(
-      Raised{strained.body, WholeOf(lanes.response, lane), WholeOf(lanes.carried, lane), 0, {}});
-  if (memory.partners > kMostPartners) return;
-  // bodies mostly keep their places
-  const auto is_there = [&](int k) {
-    const int at = memory.partner[k].body;
-    return at == kWorld || (at < static_cast<int>(bodies.size()) &&
-                            BodyNameOf(bodies[at], at) == memory.partner_key[k]);
-  };
-  for (int k = 0; k < memory.partners; ++k) {
-    if (!is_there(k)) return;
-  }
-  raised.partners = memory.partners;
-  raised.mean_orbit = &memory.orbit;
-  std::copy_n(memory.partner, memory.partners, raised.partner);
+  raised_.push_back({strained.body, WholeOf(lanes.response, lane), WholeOf(lanes.carried, lane)});
 }
 
-namespace {
-
-/// The spin about its centre that takes a body's partners best from where they are to where they
-/// go: least squares of `spin x way - relative`.
-Vector3 OrbitOf(std::span<const GeometricStiffness::Partner> partners, const Vector3* relative) {
-  // partners on a line say nothing of turns about it
-  constexpr double kNothing = 1e-6;
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0, b[3] = {0, 0, 0};
-  for (size_t i = 0; i < partners.size(); ++i) {
-    const Vector3 &d = partners[i].way, &v = relative[i];
-    xx += d[1] * d[1] + d[2] * d[2];
-    yy += d[0] * d[0] + d[2] * d[2];
-    zz += d[0] * d[0] + d[1] * d[1];
-    xy -= d[0] * d[1];
-    xz -= d[0] * d[2];
-    yz -= d[1] * d[2];
-    b[0] += d[1] * v[2] - d[2] * v[1];
-    b[1] += d[2] * v[0] - d[0] * v[2];
-    b[2] += d[0] * v[1] - d[1] * v[0];
-  }
-  const double more = kNothing * (xx + yy + zz);
-  xx += more;
-  yy += more;
-  zz += more;
-  const double c00 = yy * zz - yz * yz, c01 = xz * yz - xy * zz, c02 = xy * yz - xz * yy;
-  const double c11 = xx * zz - xz * xz, c12 = xy * xz - xx * yz, c22 = xx * yy - xy * xy;
-  const double determinant = xx * c00 + xy * c01 + xz * c02;
-  if (!(determinant > 0)) return {};
-  return {(c00 * b[0] + c01 * b[1] + c02 * b[2]) / determinant,
-          (c01 * b[0] + c11 * b[1] + c12 * b[2]) / determinant,
-          (c02 * b[0] + c12 * b[1] + c22 * b[2]) / determinant};
-}
-
-}  // namespace
-
-Vector3 GeometricStiffness::Raised::Damp(double time_step, const Vector3& spin,
-                                         const Vector3 (&relative)[kMostPartners]) const {
-  const double square = View(spin).squaredNorm();
-  double own = 1;  // share of the spin that is its own
-  if (partners > 0) {
-    const Vector3 orbit =
-        OrbitOf(std::span(partner).first(static_cast<size_t>(partners)), relative);
-    Vector3& mean = *mean_orbit;
-    const double newest = std::min(1.0, time_step / kOrbitTime);
-    // velocities need not be numbers
-    const double most = kMostTurn / time_step;
-    for (int k = 0; k < 3; ++k) {
-      if (!std::isfinite(orbit[k])) continue;
-      mean[k] += newest * (std::clamp(orbit[k], -most, most) - mean[k]);
-    }
-    const double along = mean[0] * spin[0] + mean[1] * spin[1] + mean[2] * spin[2];
-    if (square > 0) own = 1 - std::clamp(along / square, 0.0, 1.0);
-  }
-  const Eigen::Vector3d all = own * View(spin), w = View(carried) * all;
-  const Eigen::Vector3d lent = w - View(response) * w;
+Vector3 GeometricStiffness::Raised::Damp(double time_step, const Vector3& spin) const {
+  const Eigen::Vector3d all = View(spin), w = View(carried) * all, lent = w - View(response) * w;
   const double turn = time_step / kFarTurn;
   const double share = std::min(1.0, kDamping + turn * turn * lent.squaredNorm());
   return w - share * lent - all;
@@ -242,14 +169,8 @@ Vector3 GeometricStiffness::Raised::Damp(double time_step, const Vector3& spin,
 void GeometricStiffness::Apply(double time_step, std::span<Body> bodies,
                                std::span<const char> jointed) {
   for (const Raised& raised : RaiseInertia(time_step, bodies, jointed)) {
-    Velocity& velocity = bodies[raised.body].velocity;
-    Vector3 relative[kMostPartners];
-    for (int k = 0; k < raised.partners; ++k) {
-      const int other = raised.partner[k].body;
-      View(relative[k]) = -View(velocity.linear);
-      if (other != kWorld) View(relative[k]) += View(bodies[other].velocity.linear);
-    }
-    View(velocity.angular) += View(raised.Damp(time_step, velocity.angular, relative));
+    Vector3& spin = bodies[raised.body].velocity.angular;
+    View(spin) += View(raised.Damp(time_step, spin));
   }
 }
 
@@ -357,23 +278,6 @@ void GeometricStiffness::Add(int body, const Vector3& r, const Vector3& f) {
   arms.zy -= rz * r[1];
 }
 
-void GeometricStiffness::AddPartners(int body_a, const Vector3& arm_a, int body_b,
-                                     const Vector3& arm_b) {
-  Vector3 way = {}, back = {};
-  View(way) = View(arm_a) - View(arm_b);
-  View(back) = -View(way);
-  // the world has no centre
-  AddPartner(body_a, {body_b, body_b == kWorld ? arm_a : way});
-  AddPartner(body_b, {body_a, body_a == kWorld ? arm_b : back});
-}
-
-void GeometricStiffness::AddPartner(int body, const Partner& partner) {
-  if (body == kWorld || place_[body] < 0) return;
-  Sums& sums = sums_[place_[body]];
-  if (sums.partners < kMostPartners) sums.partner[sums.partners] = partner;
-  if (sums.partners <= kMostPartners) ++sums.partners;
-}
-
 void GeometricStiffness::FindAnchored(const ContactProblem& problem, const Report& report) {
   anchored_islands_.assign(report.islands.size(), 0);
   const auto moves = [&](int body) { return body != kWorld && problem.bodies[body].inv_mass > 0; };
@@ -473,15 +377,13 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
       Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
       for (int k = 0; k < count; ++k) lambda[k] = impulse[k];
       const auto add = [&](int body, const Eigen::Matrix3d& linear,
-                           const Eigen::Matrix3d& angular) -> Vector3 {
-        if (body == kWorld) return {};
+                           const Eigen::Matrix3d& angular) {
+        if (!IsPulled(body)) return;
         const Eigen::Vector3d arm = in_plane ? ArmInPlane(linear, angular) : ArmOf(linear, angular);
-        if (IsPulled(body)) Add(body, arm, linear * lambda / time_step);
-        return arm;
+        Add(body, arm, linear * lambda / time_step);
       };
-      const Vector3 arm_a = add(joint.body_a, rows.linear_a, rows.angular_a);
-      const Vector3 arm_b = add(joint.body_b, rows.linear_b, rows.angular_b);
-      AddPartners(joint.body_a, arm_a, joint.body_b, arm_b);
+      add(joint.body_a, rows.linear_a, rows.angular_a);
+      add(joint.body_b, rows.linear_b, rows.angular_b);
     }
   }
 }
@@ -489,18 +391,15 @@ void GeometricStiffness::AddJoints(double time_step, const ContactProblem& probl
 void GeometricStiffness::AddAlongWorldAxes(double time_step, const Joint& joint,
                                            const JointRow* rows, const float* impulse) {
   const Eigen::Vector3d force = Eigen::Vector3d(impulse[0], impulse[1], impulse[2]) / time_step;
-  Vector3 arm_a = {}, arm_b = {};
-  if (joint.body_a != kWorld) {
-    arm_a = ArmOfWorldAxes(rows[0].angular_a, rows[1].angular_a, rows[2].angular_a);
-    if (IsPulled(joint.body_a)) Add(joint.body_a, arm_a, force);
+  if (IsPulled(joint.body_a)) {
+    Add(joint.body_a, ArmOfWorldAxes(rows[0].angular_a, rows[1].angular_a, rows[2].angular_a),
+        force);
   }
-  if (joint.body_b != kWorld) {
+  if (IsPulled(joint.body_b)) {
     // its arm is the opposite of that, and its force: their products are the same
-    arm_b = ArmOfWorldAxes(rows[0].angular_b, rows[1].angular_b, rows[2].angular_b);
-    if (IsPulled(joint.body_b)) Add(joint.body_b, arm_b, force);
-    View(arm_b) *= -1;
+    Add(joint.body_b, ArmOfWorldAxes(rows[0].angular_b, rows[1].angular_b, rows[2].angular_b),
+        force);
   }
-  AddPartners(joint.body_a, arm_a, joint.body_b, arm_b);
 }
 
 void GeometricStiffness::AddRows(double time_step, const ContactProblem& problem,
@@ -526,16 +425,11 @@ void GeometricStiffness::AddRows(double time_step, const ContactProblem& problem
       continue;
     }
     const Eigen::Vector3d lambda(impulses.rows[i], impulses.rows[i + 1], impulses.rows[i + 2]);
-    const auto add = [&](int body, const Eigen::Matrix3d& linear,
-                         const Eigen::Matrix3d& angular) -> Vector3 {
-      if (body == kWorld) return {};
-      const Eigen::Vector3d arm = ArmOf(linear, angular);
-      if (IsAnchored(body)) Add(body, arm, linear * lambda / time_step);
-      return arm;
+    const auto add = [&](int body, const Eigen::Matrix3d& linear, const Eigen::Matrix3d& angular) {
+      if (IsAnchored(body)) Add(body, ArmOf(linear, angular), linear * lambda / time_step);
     };
-    const Vector3 arm_a = add(rows[0].body_a, linear_a, angular_a);
-    const Vector3 arm_b = add(rows[0].body_b, linear_b, angular_b);
-    AddPartners(rows[0].body_a, arm_a, rows[0].body_b, arm_b);
+    add(rows[0].body_a, linear_a, angular_a);
+    add(rows[0].body_b, linear_b, angular_b);
     i += 3;
   }
 }
@@ -603,22 +497,15 @@ void GeometricStiffness::Remember(double time_step, std::span<const Body> bodies
     if (!known) {
       if (memory == nullptr) memory = &fresh_.emplace_back();
       // one that is known may have been lowered
-      *memory = Memory();
-      memory->key = BodyNameOf(body, pulled_[p]);
-      memory->place = pulled_[p];
-      memory->inv_mass = body.inv_mass;
-      memory->inv_inertia = inv_inertia;
+      *memory = {.key = BodyNameOf(body, pulled_[p]),
+                 .place = pulled_[p],
+                 .inv_mass = body.inv_mass,
+                 .inv_inertia = inv_inertia};
     }
     memory->absent = false;
     const double newest = stepped_[pulled_[p]] != 0 ? 1 : 1 - kKeep;
     View(memory->stiffness) += newest * View(sum);
     View(memory->arms) += newest * View(arms);
-    memory->partners = sums_[p].partners;
-    for (int k = 0; k < std::min(memory->partners, kMostPartners); ++k) {
-      const int other = sums_[p].partner[k].body;
-      memory->partner[k] = sums_[p].partner[k];
-      memory->partner_key[k] = other == kWorld ? 0 : BodyNameOf(bodies[other], other);
-    }
     memory->seen = true;
   }
   KeepAbsent();

@@ -46,28 +46,15 @@ double ShareOfErp(double strain);
 /// strained, see ShareOfErp().
 class GeometricStiffness {
  public:
-  /// What a joint holds a body to.
-  struct Partner {
-    int body = kWorld;  ///< Its place.
-    Vector3 way = {};   ///< To its centre of mass, or where the world holds the joint [m].
-  };
-  static constexpr int kMostPartners = 4;
   /// A body whose inertia was raised.
   struct Raised {
     int body;          ///< Its place.
     Matrix3 response;  ///< What torques change its spin by, relative to before.
     Matrix3 carried;   ///< What is left of its spin where inertia was raised since the last step.
-    int partners = 0;  ///< 0 where they are not known.
-    Partner partner[kMostPartners] = {};
-    Vector3* mean_orbit = nullptr;  ///< How they go round it, kept from step to step [rad/s].
 
     /// What its spin changes by over this step, before any impulse [rad/s]. Raised inertia would
-    /// lend weight to spin that it did not have when it came about, and throw what stops it. But
-    /// spin with which its partners have gone round it for long is theirs, too, and left alone: a
-    /// chain that is whirled. Once a step: it takes these into their mean.
-    /// @param relative  velocities of its partners, less its own [m/s]
-    Vector3 Damp(double time_step, const Vector3& spin,
-                 const Vector3 (&relative)[kMostPartners]) const;
+    /// lend weight to spin that it did not have when it came about, and throw what stops it.
+    Vector3 Damp(double time_step, const Vector3& spin) const;
   };
 
   /// Raises the inertia of the bodies whose joints pull too hard for a step of that length [s], in
@@ -113,10 +100,6 @@ class GeometricStiffness {
     double inv_mass = 0;       ///< who it is
     double inv_inertia = 0;    ///< sum of its inverse moments, not lowered
     bool seen = false, absent = false;
-    int partners = 0;  ///< more than kMostPartners: too many
-    Partner partner[kMostPartners] = {};
-    std::uint64_t partner_key[kMostPartners] = {};
-    Vector3 orbit = {};  ///< Raised::mean_orbit
   };
   static constexpr std::uint64_t kNobody = 0;
   /// A matrix that is its own transpose.
@@ -127,8 +110,6 @@ class GeometricStiffness {
   /// Over the joints of a body.
   struct Sums {
     Symmetric stiffness, arms;
-    int partners = 0;
-    Partner partner[kMostPartners] = {};
   };
   /// A body that may be above the threshold, and what is remembered of it.
   struct Strained {
@@ -143,9 +124,6 @@ class GeometricStiffness {
   void FindAnchored(const ContactProblem& problem, const Report& report);
   /// @param arm  from its centre of mass; @param force  [N]
   void Add(int body, const Vector3& arm, const Vector3& force);
-  /// Two bodies that a joint holds at these arms [m].
-  void AddPartners(int body_a, const Vector3& arm_a, int body_b, const Vector3& arm_b);
-  void AddPartner(int body, const Partner& partner);
   void FindJointed(const ContactProblem& problem);
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
   bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
