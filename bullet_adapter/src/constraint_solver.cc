@@ -64,6 +64,13 @@ SweepLimits LimitsOf(bool by_iterations, std::span<btTypedConstraint* const> joi
   return own && by_iterations ? SweepLimits::kBullet : SweepLimits::kNone;
 }
 
+/// What the last substep was refused for says nothing of the next one.
+void ForgetJudgement(Report* report) {
+  report->status = Status::kOk;
+  report->bad_setting = {};
+  report->bad_row = report->bad_body = report->bad_manifold = report->bad_joint = -1;
+}
+
 /// Whether the iteration is Bullet's own.
 bool SweepsAsBullet(const Settings& settings) {
   return settings.method == Method::kPgs ||
@@ -110,7 +117,7 @@ struct ConstraintSolver::Impl {
   BadObjects bad_objects;
   OddIslands islands;
   /// What was wrong where Mode::kReference could solve it all the same, or with a part of the group
-  /// that was left to it.
+  /// that was left to it or left out.
   std::string refused;
   std::vector<double> shown_impulses;
   Report report;
@@ -270,6 +277,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   impl_->start = impl_->Now();
   impl_->fell_back = impl_->solved_fast = impl_->recorded = false;
   impl_->refused.clear();
+  ForgetJudgement(&impl_->report);
   impl_->times = {};
   Group group{{bodies, static_cast<size_t>(num_bodies)},
               {manifolds, static_cast<size_t>(num_manifolds)},

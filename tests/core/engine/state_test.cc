@@ -48,6 +48,14 @@ std::vector<double> BitsOf(const LoadedBridge& bridge) {
   return all;
 }
 
+void ExpectSameSteps(LoadedBridge* here, LoadedBridge* there) {
+  for (int i = 0; i < 50; ++i) {
+    here->Step();
+    there->Step();
+  }
+  EXPECT_EQ(BitsOf(*here), BitsOf(*there));
+}
+
 TEST(SavedState, LeadsToTheSameBitsAgain) {
   constexpr int kBack = 7;
   LoadedBridge straight, rolled;
@@ -81,11 +89,7 @@ TEST(SavedState, IsThatOfAnotherMachineAsWell) {
   Save(&here, &sent);
   LoadedBridge there;
   Load(&sent, &there);
-  for (int i = 0; i < 50; ++i) {
-    here.Step();
-    there.Step();
-  }
-  EXPECT_EQ(BitsOf(here), BitsOf(there));
+  ExpectSameSteps(&here, &there);
 }
 
 // Nothing but numbers is sent: bodies, and what the step starts from.
@@ -106,11 +110,7 @@ TEST(SentState, LeadsToTheSameBits) {
   };
   there.Step();
   there.before_solve = nullptr;
-  for (int i = 0; i < 50; ++i) {
-    here.Step();
-    there.Step();
-  }
-  EXPECT_EQ(BitsOf(here), BitsOf(there));
+  ExpectSameSteps(&here, &there);
 }
 
 TEST(SavedState, MayBeTakenInEachStep) {
