@@ -277,7 +277,7 @@ static void NamesBadJoints(void) {
        "b.body is 0, must be another body than the first");
   b.body = -2;
   Said(frame, cairnAddJoint(frame, &kind, &a, &b, 1, &place),
-       "b.body is -2, must be CAIRN_WORLD, or below bodyCount");
+       "b.body is -2, must be -1 for the world, or below the count of bodies");
   b.body = 1;
   CairnJointAxis length = cairnDefaultJointAxis();
   length.frequency = INFINITY;

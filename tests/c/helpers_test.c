@@ -253,7 +253,7 @@ static void NamesBadTouches(void) {
   touch.friction = 0.5;
   touch.bodyB = 2;
   Refused(cairnAddTouch(frame, &touch, points, 2), cairnNoSuchBody, frame,
-          "touch.bodyB is 2, must be CAIRN_WORLD, or below bodyCount");
+          "touch.bodyB is 2, must be -1 for the world, or below the count of bodies");
   touch.bodyB = 1;
   Refused(cairnAddTouch(frame, &touch, points, 2), cairnNoSuchBody, frame,
           "touch.bodyB is 1, must be another body than the first");

@@ -79,7 +79,6 @@ struct CairnFrame : detail::Placed {
     step = {};
     bodies_of_c = nullptr;
   }
-  int body_count() const { return static_cast<int>(bodies.size()); }
 
   detail::Heap::Owner heap;  ///< all of this lies in it, and itself
   double joint_erp;
@@ -88,7 +87,7 @@ struct CairnFrame : detail::Placed {
   Array<Body> bodies;
   StepInput step;
   const CairnBody* bodies_of_c = nullptr;
-  c::BadInput bad;  ///< of the last call
+  c::Refusal refusal;  ///< of the last call
 };
 
 namespace {
@@ -102,15 +101,15 @@ bool SameLayout(const CairnHelperLayout& a, const CairnHelperLayout& b) {
 
 /// What is refused before a value is looked at.
 CairnStatus Refuse(CairnFrame* frame, CairnStatus status) {
-  if (frame != nullptr) frame->bad = {.status = status};
+  if (frame != nullptr) frame->refusal = {.status = status, .bad = {}};
   return status;
 }
 
-/// Calls @p change where nothing is bad. What it threw may have left contacts half added.
+/// Calls @p change where nothing was refused. What it threw may have left contacts half added.
 template <class Change>
-CairnStatus Accept(CairnFrame* frame, const c::BadInput& bad, const Change& change) {
-  frame->bad = bad;
-  if (bad.status != cairnOk) return bad.status;
+CairnStatus Accept(CairnFrame* frame, const c::Refusal& refusal, const Change& change) {
+  frame->refusal = refusal;
+  if (refusal.status != cairnOk) return refusal.status;
   const CairnStatus status = c::Guarded([&] {
     change();
     return cairnOk;
@@ -119,14 +118,26 @@ CairnStatus Accept(CairnFrame* frame, const c::BadInput& bad, const Change& chan
   return status;
 }
 
+/// Calls @p add, which says what it refuses.
+template <class Add>
+CairnStatus AddTo(CairnFrame* frame, const Add& add) {
+  // of a frame that was copied, helpers still know the other's bodies
+  if (frame->bodies.empty()) return Refuse(frame, cairnNoSuchBody);
+  const CairnStatus status =
+      Accept(frame, {}, [&] { frame->refusal = c::RefusalOf(add(), cairnBadInput); });
+  return status != cairnOk ? status : frame->refusal.status;
+}
+
 JointSide ToSide(const CairnJointSide& side) { return c::Same<JointSide>(side); }
 
 /// One way to add a joint, which gives its place.
 template <class Add>
-CairnStatus AddJoint(CairnFrame* frame, const c::BadInput& bad, int32_t* place, const Add& add) {
-  return Accept(frame, bad, [&] {
+CairnStatus AddJoint(CairnFrame* frame, int32_t* place, const Add& add) {
+  return AddTo(frame, [&] {
     const int added = add(&frame->joints);
-    if (place != nullptr) *place = added;
+    const detail::BadValue& refused = frame->joints.refused();
+    if (place != nullptr && !refused) *place = added;
+    return refused;
   });
 }
 
@@ -202,8 +213,9 @@ size_t cairnDescribeFrameSettings(const CairnFrameSettings* settings, char* text
 
 CairnStatus cairnSetContactOptions(CairnFrame* frame, const CairnContactOptions* options) {
   if (frame == nullptr || options == nullptr) return Refuse(frame, cairnNullPointer);
-  return Accept(frame, c::FindBadOptions(*options),
-                [&] { frame->contacts.options() = c::Same<ContactOptions>(*options); });
+  const auto wanted = c::Same<ContactOptions>(*options);
+  return Accept(frame, c::RefusalOf(detail::FindBad(wanted, ""), cairnBadSettings),
+                [&] { frame->contacts.options() = wanted; });
 }
 
 size_t cairnFrameBytes(const CairnFrame* frame, size_t* most) {
@@ -239,9 +251,9 @@ CairnStatus cairnAddTouch(CairnFrame* frame, const CairnTouch* touch, const Cair
   if (frame == nullptr || touch == nullptr) return Refuse(frame, cairnNullPointer);
   if (count < 0) return Refuse(frame, cairnWrongSize);
   if (count > 0 && points == nullptr) return Refuse(frame, cairnNullPointer);
-  const std::span all(points, static_cast<size_t>(count));
-  return Accept(frame, c::FindBadTouch(*touch, all, frame->body_count()), [&] {
+  return AddTo(frame, [&] {
     frame->contacts.Add(c::Same<Touch>(*touch), c::Over<const TouchPoint>(points, count));
+    return frame->contacts.refused();
   });
 }
 
@@ -249,8 +261,7 @@ CairnStatus cairnAddJoint(CairnFrame* frame, const CairnJointKind* kind, const C
                           const CairnJointSide* b, uint64_t id, int32_t* place) {
   if (frame == nullptr || kind == nullptr || a == nullptr || b == nullptr)
     return Refuse(frame, cairnNullPointer);
-  const c::BadInput bad = c::FindBadJoint(*kind, *a, *b, frame->body_count());
-  return AddJoint(frame, bad, place, [&](Joints* joints) {
+  return AddJoint(frame, place, [&](Joints* joints) {
     return joints->Add(c::Same<JointKind>(*kind), ToSide(*a), ToSide(*b), id);
   });
 }
@@ -261,8 +272,7 @@ CairnStatus cairnAddDistance(CairnFrame* frame, const CairnJointAxis* length,
   if (frame == nullptr || length == nullptr || a == nullptr || b == nullptr) {
     return Refuse(frame, cairnNullPointer);
   }
-  const c::BadInput bad = c::FindBadDistance(*length, *a, *b, frame->body_count());
-  return AddJoint(frame, bad, place, [&](Joints* joints) {
+  return AddJoint(frame, place, [&](Joints* joints) {
     return joints->AddDistance(AxisOr(length), ToSide(*a), ToSide(*b), id);
   });
 }
@@ -270,8 +280,7 @@ CairnStatus cairnAddDistance(CairnFrame* frame, const CairnJointAxis* length,
 CairnStatus cairnAddGear(CairnFrame* frame, const CairnJointGear* a, const CairnJointGear* b,
                          uint64_t id, int32_t* place) {
   if (frame == nullptr || a == nullptr || b == nullptr) return Refuse(frame, cairnNullPointer);
-  const c::BadInput bad = c::FindBadGear(*a, *b, frame->body_count());
-  return AddJoint(frame, bad, place, [&](Joints* joints) {
+  return AddJoint(frame, place, [&](Joints* joints) {
     return joints->AddGear(c::Same<JointGear>(*a), c::Same<JointGear>(*b), id);
   });
 }
@@ -279,7 +288,7 @@ CairnStatus cairnAddGear(CairnFrame* frame, const CairnJointGear* a, const Cairn
 size_t cairnDescribeInput(const CairnFrame* frame, char* text, size_t size) {
   return c::Say(text, size, [&](std::string* said) {
     if (frame == nullptr) return cairnNullPointer;
-    *said = Describe(frame->bad);
+    *said = Describe(frame->refusal);
     return cairnOk;
   });
 }

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "cairn/contact_problem.h"
+#include "cairn/detail/bad_value.h"
 #include "cairn/detail/start_memory.h"
 
 namespace cairn {
@@ -83,8 +85,12 @@ class Contacts {
   /// Begins a frame. The bodies are looked at until the last Add(). Where memory ends, this and
   /// Add() throw std::bad_alloc, and have changed nothing.
   void Begin(const StepInput& step);
-  /// More than Manifold::kMostPoints points become several manifolds.
-  void Add(const Touch& touch, std::span<const TouchPoint> points);
+  /// More than Manifold::kMostPoints points become several manifolds. False, and nothing is added,
+  /// where a value of these or of options() is out of its range: complaint() names it.
+  bool Add(const Touch& touch, std::span<const TouchPoint> points);
+  /// Why the last Add() was refused: "points[2].depth is nan, must be finite". Empty if it was not.
+  std::string complaint() const { return Describe(refused_); }
+  const detail::BadValue& refused() const { return refused_; }
 
   std::span<const Manifold> manifolds() const { return manifolds_; }
   std::span<const ContactPoint> points() const { return points_; }
@@ -97,6 +103,7 @@ class Contacts {
   ContactOptions options_;
   StepInput step_;
   PositionError deepest_;
+  detail::BadValue refused_;
   Array<Manifold> manifolds_;
   Array<ContactPoint> points_;
   Array<ContactImpulse> impulses_;

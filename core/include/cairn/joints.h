@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "cairn/contacts.h"
 
@@ -79,7 +80,8 @@ class Joints {
   /// Add() throw std::bad_alloc, and have changed nothing.
   void Begin(const StepInput& step);
   /// @param id  names the joint while it lives; 0: no name, no warm start
-  /// @return    its place in joints(); -1 if the kind holds nothing, and nothing was added
+  /// @return    its place in joints(); -1, and nothing is added, if the kind holds nothing, or a
+  ///            value is out of its range, which complaint() names
   int Add(const JointKind& kind, const JointSide& a, const JointSide& b, std::uint64_t id);
   /// An axis along the line between the anchors: a rod where it is held, a rope with a limit hi, a
   /// spring. Axes of the sides are not looked at.
@@ -89,6 +91,9 @@ class Joints {
   /// Teeth of two wheels that turn about the x axes of their sides, on hinges of their own: as many
   /// of one pass as of the other, against each other where the axes agree.
   int AddGear(const JointGear& a, const JointGear& b, std::uint64_t id);
+  /// Why the last was refused: "kind.twist.lo is 2, must be at most hi". Empty if it was not.
+  std::string complaint() const { return Describe(refused_); }
+  const detail::BadValue& refused() const { return refused_; }
 
   std::span<const Joint> joints() const { return joints_; }
   std::span<const JointRow> rows() const { return rows_; }
@@ -105,6 +110,7 @@ class Joints {
  private:
   struct Direction;
 
+  bool Refuse(const detail::BadValue& bad);
   void Open(const JointSide& a, const JointSide& b);
   void AddAxis(const JointAxis& axis, const Direction& direction, double position);
   void AddCone(double cone, const JointSide& a, const JointSide& b);
@@ -116,6 +122,7 @@ class Joints {
   double erp_ = 0.2;
   StepInput step_;
   PositionError gap_, angle_;
+  detail::BadValue refused_;
   double gap_square_ = 0, angle_square_ = 0;  ///< of the joint that is added
   Array<Joint> joints_;
   Array<JointRow> rows_;

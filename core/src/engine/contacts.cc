@@ -81,12 +81,16 @@ void Contacts::Begin(const StepInput& step) {
   memory_.Begin({last, kNumbers * impulses_.size()}, step.bodies, step.time_step);
   step_ = step;
   deepest_ = {};
+  refused_ = {};
   manifolds_.clear();
   points_.clear();
   impulses_.clear();
 }
 
-void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
+bool Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
+  refused_ = detail::FindBad(options_, "options");
+  if (!refused_) refused_ = detail::FindBad(touch, points, static_cast<int>(step_.bodies.size()));
+  if (refused_) return false;
   MakeRoom(points.size() / Manifold::kMostPoints + 1, &manifolds_);
   MakeRoom(points.size(), &points_);
   MakeRoom(points.size(), &impulses_);
@@ -111,6 +115,7 @@ void Contacts::Add(const Touch& touch, std::span<const TouchPoint> points) {
     impulse.normal *= start.share;
     for (float& tangential : impulse.tangential) tangential *= start.share;
   }
+  return true;
 }
 
 void Contacts::AddPoint(const Touch& touch, const TouchPoint& from, Manifold* manifold) {

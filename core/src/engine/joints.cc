@@ -78,12 +78,20 @@ void Joints::Begin(const StepInput& step) {
   memory_.Begin(impulses_, step.bodies, step.time_step);
   step_ = step;
   gap_ = angle_ = {};
+  refused_ = {};
   joints_.clear();
   rows_.clear();
   impulses_.clear();
 }
 
+bool Joints::Refuse(const detail::BadValue& bad) {
+  refused_ = detail::FindBadErp(erp_, "erp");
+  if (!refused_) refused_ = bad;
+  return static_cast<bool>(refused_);
+}
+
 int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, std::uint64_t id) {
+  if (Refuse(detail::FindBad(kind, a, b, static_cast<int>(step_.bodies.size())))) return -1;
   Open(a, b);
   const Vector3d apart = Between(a.anchor, b.anchor);
   for (int i = 0; i < 3; ++i) {
@@ -105,6 +113,7 @@ int Joints::Add(const JointKind& kind, const JointSide& a, const JointSide& b, s
 
 int Joints::AddDistance(const JointAxis& length, const JointSide& a, const JointSide& b,
                         std::uint64_t id) {
+  if (Refuse(detail::FindBad(length, a, b, static_cast<int>(step_.bodies.size())))) return -1;
   Open(a, b);
   const Vector3d apart = Between(a.anchor, b.anchor);
   const double distance = apart.norm();
@@ -118,6 +127,7 @@ int Joints::AddDistance(const JointAxis& length, const JointSide& a, const Joint
 }
 
 int Joints::AddGear(const JointGear& a, const JointGear& b, std::uint64_t id) {
+  if (Refuse(detail::FindBad(a, b, static_cast<int>(step_.bodies.size())))) return -1;
   Open(a.side, b.side);
   // as a turns: by what teeth of b that pass turn it
   const double ratio = static_cast<double>(b.teeth) / a.teeth;

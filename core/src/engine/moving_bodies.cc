@@ -18,8 +18,7 @@ void MovingBodies::Look(std::span<const Body> bodies) {
 
 BodyPair MovingBodies::PairOf(int a, int b) const {
   const auto name = [this](int place) -> std::uint64_t {
-    const bool there = place >= 0 && static_cast<std::size_t>(place) < bodies_.size();
-    return there ? BodyNameOf(bodies_[static_cast<std::size_t>(place)], place) : 0;
+    return place == kWorld ? 0 : BodyNameOf(bodies_[static_cast<std::size_t>(place)], place);
   };
   return {.a = name(a), .b = name(b), .place_a = a, .place_b = b};
 }

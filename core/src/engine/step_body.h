@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 
 #include "cairn/contacts.h"
 #include "cairn/detail/eigen.h"
@@ -15,18 +14,14 @@ struct HalfRow {
   Eigen::Vector3d linear, angular;
 };
 
-/// It moves: not the world, and none that Solve() will say is not there.
-inline bool IsBody(const StepInput& step, int body) {
-  return body >= 0 && static_cast<std::size_t>(body) < step.bodies.size();
-}
-
-/// Velocity of a body before external impulses, and after them.
+/// Velocity of a body before external impulses, and after them. Here and below: it is kWorld, or
+/// one of the step's.
 inline Velocity StartVelocity(const StepInput& step, int body) {
-  return IsBody(step, body) ? step.bodies[body].velocity : Velocity{};
+  return body == kWorld ? Velocity{} : step.bodies[body].velocity;
 }
 
 inline Velocity FreeVelocity(const StepInput& step, int body) {
-  if (!IsBody(step, body)) return {};
+  if (body == kWorld) return {};
   const Body& b = step.bodies[body];
   const Eigen::Vector3d pushed = b.inv_mass * View(b.linear_factor).cwiseProduct(View(b.impulse));
   return {.linear = View(b.velocity.linear) + pushed,
@@ -39,7 +34,7 @@ inline double Along(const HalfRow& row, const Velocity& velocity) {
 
 /// Its part of J M^-1 J'.
 inline double Mobility(const StepInput& step, int body, const HalfRow& row) {
-  if (!IsBody(step, body)) return 0;
+  if (body == kWorld) return 0;
   const Body& b = step.bodies[body];
   return b.inv_mass * View(b.linear_factor).cwiseProduct(row.linear).dot(row.linear) +
          row.angular.dot(View(b.inv_inertia) * row.angular);

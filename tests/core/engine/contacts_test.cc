@@ -230,24 +230,6 @@ TEST(Contacts, StartFromWhatTheSameFeatureExerted) {
   EXPECT_EQ(contacts.impulses()[3].normal, 1);
 }
 
-TEST(Contacts, OfABodyThatIsNotThereAreRefusedBySolve) {
-  const std::array bodies{Body{.inv_mass = 1}};
-  for (const int body : {1, 1'000'000, -2}) {
-    Contacts contacts({.frequency = 10});
-    Joints joints;
-    const StepInput step{bodies, 0.01};
-    contacts.Begin(step);
-    contacts.Add({.body_a = body, .friction = 1, .restitution = 1}, std::array{TouchPoint{}});
-    joints.Begin(step);
-    joints.Add(SliderJoint({.frequency = 5}), {.body = body}, {}, 1);
-    std::array<Velocity, 1> velocities;
-    Solver solver;
-    const Report report =
-        solver.Solve(ProblemOf(step, contacts, joints), StartOf(&contacts, &joints), velocities);
-    EXPECT_EQ(report.status, Status::kNoSuchBody) << body;
-  }
-}
-
 TEST(Contacts, StartALongerStepFromMore) {
   const std::array bodies{Body{.inv_mass = 1}};
   const Touch touch{.body_a = 0, .friction = 1, .id = 7};

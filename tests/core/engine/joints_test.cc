@@ -69,10 +69,11 @@ TEST(Joints, TakeBackTheirShareOfAGapInAStep) {
 // By hand: anchors 3 and 4 cm apart along two axes, axes turned by 0.2 rad, a limit passed by 0.3
 // m.
 TEST(Joints, SayHowFarApartTheyAre) {
+  const std::array<Body, 1> bodies{};
   Joints joints(0.25);
-  joints.Begin({});
-  const JointSide side{.anchor = {0.03, 0, 0.04}}, far{.anchor = {0.8, 0, 0}};
-  JointSide turned;
+  joints.Begin({.bodies = bodies});
+  const JointSide side{.body = 0, .anchor = {0.03, 0, 0.04}}, far{.body = 0, .anchor = {0.8, 0, 0}};
+  JointSide turned{.body = 0};
   turned.axes = Eigen::AngleAxisd(0.2, Vector3d::UnitY()).toRotationMatrix();
   joints.Add(BallJoint(), side, {}, 1);
   EXPECT_NEAR(joints.worst_gap().largest, 0.05, 1e-12);
@@ -84,7 +85,7 @@ TEST(Joints, SayHowFarApartTheyAre) {
   EXPECT_NEAR(joints.worst_angle().taken_back, 0.05, 1e-9);
   joints.Add(SliderJoint({.hi = 0.5}), far, {}, 3);
   EXPECT_NEAR(joints.worst_gap().largest, 0.3, 1e-12);
-  joints.Begin({});
+  joints.Begin({.bodies = bodies});
   joints.Add(SliderJoint({.hi = 0.9}), far, {}, 3);
   joints.Add(SliderJoint({.speed = 1, .max_motor_force = 1}), far, {}, 4);
   EXPECT_EQ(joints.worst_gap().largest, 0) << "what is free is no error";
