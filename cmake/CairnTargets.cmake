@@ -5,21 +5,26 @@ add_library(cairn_source_root INTERFACE)
 target_include_directories(cairn_source_root INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 
 # Makes targets of others, which were found in this folder, known in all of them: a parent project that adds this
-# project links our targets without finding theirs.
+# project links our targets without finding theirs. CMake lets nobody do that for what a parent has found.
 function(cairn_global)
+  get_property(found_here DIRECTORY PROPERTY IMPORTED_TARGETS)
   foreach(target ${ARGN})
-    if(TARGET ${target})
-      get_target_property(imported ${target} IMPORTED)
-      if(imported)
-        set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
-      endif()
+    if(TARGET ${target} AND target IN_LIST found_here)
+      set_target_properties(${target} PROPERTIES IMPORTED_GLOBAL TRUE)
     endif()
   endforeach()
 endfunction()
 
+# Shared libraries choose by a list what they show (cmake/exports). A parent project that hides everything hides more.
+if(BUILD_SHARED_LIBS)
+  set(CMAKE_CXX_VISIBILITY_PRESET default)
+  set(CMAKE_VISIBILITY_INLINES_HIDDEN OFF)
+endif()
+
 # Warnings where this is not part of another project, no fused multiply-add behind our back (results must not depend on
 # the target), sanitizers. Optimised also where a parent project has no build type.
-# Nobody replaces single functions of ours: else code for shared libraries could not inline them.
+# Nobody replaces single functions of ours: else code for shared libraries could not inline them. Nor are variables
+# unique in the process: a plugin that has them could not be unloaded.
 function(cairn_strict target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # Files reuse names of helpers, and kernels include themselves, once per target.
@@ -30,6 +35,7 @@ function(cairn_strict target)
   endif()
   target_compile_options(${target} PRIVATE $<$<CONFIG:>:-O3 -DNDEBUG> -ffp-contract=off
                                            -fno-semantic-interposition -Wno-psabi
+                                           $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fno-gnu-unique>
                                            $<$<BOOL:${CAIRN_WERROR}>:-Werror>)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow)
@@ -73,6 +79,14 @@ function(cairn_use_headers target name)
   endif()
 endfunction()
 
+# Threads of oneTBB may still be on their way out of a library when it is closed: it stays, as oneTBB with it.
+function(cairn_stays target)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND CMAKE_SYSTEM_NAME STREQUAL "Linux")
+    target_link_options(${target} PRIVATE LINKER:-z,nodelete)
+  endif()
+endfunction()
+
 set(CAIRN_SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 
 # A shared library shows the names that cmake/exports/<file>.map.in lists.
@@ -102,6 +116,7 @@ function(cairn_library target alias)
     EXPORT_NAME ${alias} OUTPUT_NAME ${file} POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${CAIRN_SOVERSION} DEFINE_SYMBOL "" INSTALL_RPATH "$ORIGIN")
   cairn_strict(${target})
+  cairn_stays(${target})
   if(CAIRN_HIDES)
     cairn_show(${target} ${file})
   endif()

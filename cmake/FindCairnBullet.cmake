@@ -5,7 +5,8 @@
 #
 # Bullet's own CMake config has no targets, and Debian's is broken (relative include path, missing use file);
 # CMake's module finds the float libraries only. This looks for headers and libraries itself; pass
-# -DBULLET_ROOT=/prefix (or Bullet_ROOT, or either in the environment) for a Bullet that is not in a standard place.
+# -DBULLET_ROOT=/prefix (or Bullet_ROOT, or either in the environment) for a Bullet that is not in a standard place:
+# no other is taken then.
 #
 # A Bullet whose locks lock is one for several threads (BT_THREADSAFE, cmake/build-bullet-mt.sh): its targets then
 # carry that definition, which what is inline in its headers needs as well. A program of a few lines is run to
@@ -15,10 +16,24 @@
 # one it is (CAIRN_BULLET_PRECISION), and CMake refuses a target that links both.
 include(FindPackageHandleStandardArgs)
 set(_cairn_bullet_roots ${BULLET_ROOT} ${Bullet_ROOT} $ENV{BULLET_ROOT} $ENV{Bullet_ROOT})
+set(_cairn_bullet_places)
+if(_cairn_bullet_roots)
+  set(_cairn_bullet_places NO_DEFAULT_PATH)
+endif()
+# What was found for other roots is not theirs.
+if(DEFINED CAIRN_BULLET_ROOTS AND NOT "${CAIRN_BULLET_ROOTS}" STREQUAL "${_cairn_bullet_roots}")
+  unset(CAIRN_BULLET_INCLUDE_DIR CACHE)
+  unset(CAIRN_BULLET_THREADSAFE_OF CACHE)
+  foreach(part BulletDynamics BulletCollision LinearMath)
+    unset(CAIRN_${part}_LIBRARY CACHE)
+    unset(CAIRN_${part}-float64_LIBRARY CACHE)
+  endforeach()
+endif()
+set(CAIRN_BULLET_ROOTS "${_cairn_bullet_roots}" CACHE INTERNAL "Where Bullet was looked for")
 
 # Found means one precision at least, or the only one that was asked for; ask for the targets to know which.
 find_path(CAIRN_BULLET_INCLUDE_DIR NAMES btBulletDynamicsCommon.h
-          HINTS ${_cairn_bullet_roots} PATH_SUFFIXES include/bullet bullet)
+          HINTS ${_cairn_bullet_roots} PATH_SUFFIXES include/bullet bullet ${_cairn_bullet_places})
 
 # Sets CAIRN_BULLET_THREADSAFE, once for each Bullet: whether a lock that is held cannot be had by another.
 function(_cairn_try_bullet_locks library)
@@ -49,7 +64,7 @@ function(_cairn_find_bullet target suffix precision definition)
   set(libraries)
   foreach(part BulletDynamics BulletCollision LinearMath)
     find_library(CAIRN_${part}${suffix}_LIBRARY NAMES ${part}${suffix}
-                 HINTS ${_cairn_bullet_roots} PATH_SUFFIXES lib)
+                 HINTS ${_cairn_bullet_roots} PATH_SUFFIXES lib lib64 lib/${CMAKE_LIBRARY_ARCHITECTURE} ${_cairn_bullet_places})
     mark_as_advanced(CAIRN_${part}${suffix}_LIBRARY)
     if(NOT CAIRN_${part}${suffix}_LIBRARY)
       return()
@@ -95,8 +110,12 @@ if(CAIRN_BULLET_INCLUDE_DIR AND EXISTS ${CAIRN_BULLET_INCLUDE_DIR}/LinearMath/bt
   set(CairnBullet_VERSION ${_cairn_bullet_major}.${_cairn_bullet_minor})
 endif()
 
+set(_cairn_bullet_missing "Debian and Ubuntu: apt-get install libbullet-dev")
+if(_cairn_bullet_roots)
+  set(_cairn_bullet_missing "looked in BULLET_ROOT alone, ${_cairn_bullet_roots}")
+endif()
 find_package_handle_standard_args(CairnBullet
   REQUIRED_VARS CAIRN_BULLET_INCLUDE_DIR CairnBullet_LIBRARIES
   VERSION_VAR CairnBullet_VERSION
-  REASON_FAILURE_MESSAGE "Debian and Ubuntu: apt-get install libbullet-dev")
+  REASON_FAILURE_MESSAGE "${_cairn_bullet_missing}")
 mark_as_advanced(CAIRN_BULLET_INCLUDE_DIR)

@@ -93,5 +93,5 @@ for double in OFF ON; do
   cmake --install "$work/build-$double" >"$work/install-$double.log"
 done
 # what is inline in its headers must lock as well
-sed -i 's/^Cflags: .*/& -DBT_THREADSAFE=1/' "$prefix/lib/pkgconfig/bullet.pc"
+sed -i 's/^Cflags: .*/& -DBT_THREADSAFE=1/' "$prefix"/lib/pkgconfig/bullet*.pc
 echo "Bullet for several threads is in $prefix: cmake -DBULLET_ROOT=$prefix"

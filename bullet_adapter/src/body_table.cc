@@ -106,7 +106,9 @@ void BodyTable::Begin(std::span<btCollisionObject* const> objects, const btConta
                       detail::Threads* threads) {
   ++substep_;
   time_step_ = info.m_timeStep;
-  strangers_.clear();
+  // those of before are found again without an allocation; of most nobody asks again
+  constexpr size_t kMostStrangers = 1 << 10;
+  if (strangers_.size() > kMostStrangers) strangers_.clear();
   names_.BeginSubstep();
   if (threads->several() && EnterInParts(objects, info, threads)) return;
   EnterInOrder(objects, info);
@@ -270,9 +272,13 @@ const ContactEnd& BodyTable::Enter(const btCollisionObject& object) {
     if (slot.end.reacts) bodies_[slot.end.number].id = NameOf(*rigids_[slot.end.number]);
     return slot.end;
   }
-  const auto [entry, is_new] = strangers_.try_emplace(&object);
-  if (is_new) Fill(object, &entry->second);
-  return entry->second;
+  Slot& slot = strangers_[&object];
+  if (slot.substep != substep_) {
+    slot.object = &object;
+    slot.substep = substep_;
+    Fill(object, &slot.end);
+  }
+  return slot.end;
 }
 
 btRigidBody* BodyTable::Describe(const btCollisionObject& object, ContactEnd* end) {

@@ -86,7 +86,8 @@ class BodyTable {
     }
     if (strangers_.empty()) return nullptr;
     const auto stranger = strangers_.find(&object);
-    return stranger == strangers_.end() ? nullptr : &stranger->second;
+    const bool is_known = stranger != strangers_.end() && stranger->second.substep == substep_;
+    return is_known ? &stranger->second.end : nullptr;
   }
   /// How often ends have moved to another place: pointers to them are good until they do.
   int growths() const { return growths_; }
@@ -148,7 +149,7 @@ class BodyTable {
   size_t claims_size_ = 0;
   std::vector<Part> parts_;
   /// Objects in no world, or with the index of another one from another world.
-  std::unordered_map<const btCollisionObject*, ContactEnd> strangers_;
+  std::unordered_map<const btCollisionObject*, Slot> strangers_;
 
   std::vector<Body> bodies_;
   std::vector<Motion> motions_;

@@ -4,7 +4,9 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "body_table.h"
 
@@ -13,7 +15,7 @@ inline namespace CAIRN_BULLET_PRECISION {
 namespace {
 
 constexpr double kOnEarth = 9.81;  ///< [m/s^2]
-/// So many bodies are asked, for worlds in which nothing falls.
+/// So many bodies are asked, one in so many of all.
 constexpr size_t kAsked = 16;
 /// 2^16 units are 0.015 mm.
 constexpr int kMostDoublings = 16;
@@ -26,16 +28,21 @@ btScalar GravityOf(const btCollisionObject* object) {
 }
 
 double UnitsPerMetre(std::span<btCollisionObject* const> bodies) {
-  double most = 0;
-  for (const btCollisionObject* const body : bodies.first(std::min(bodies.size(), kAsked))) {
-    const double ratio = static_cast<double>(GravityOf(body)) / kOnEarth;
-    if (ratio > most && ratio < HUGE_VAL) most = ratio;
-    // as on earth: others are not asked
-    if (most * most > 0.5 && most * most < 2) return 1;
+  // by the middle one of some, or the larger of two: a few may have a gravity of their own, as
+  // magnets, missiles and balloons have
+  std::array<double, kAsked> ratios;
+  size_t count = 0;
+  const size_t asked = std::min(bodies.size(), kAsked);
+  for (size_t i = 0; i < asked; ++i) {
+    const double ratio =
+        static_cast<double>(GravityOf(bodies[i * bodies.size() / asked])) / kOnEarth;
+    if (ratio > 0 && ratio < HUGE_VAL) ratios[count++] = ratio;
   }
-  if (most == 0) return 1;
-  int doublings = 0;  // most is in [0.5, 1) 2^doublings
-  const double rest = std::frexp(most, &doublings);
+  if (count == 0) return 1;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(ratios.begin(), middle, ratios.begin() + static_cast<std::ptrdiff_t>(count));
+  int doublings = 0;  // it is in [0.5, 1) 2^doublings
+  const double rest = std::frexp(*middle, &doublings);
   if (rest * rest < 0.5) --doublings;  // to the nearest power
   return std::ldexp(1.0, std::clamp(doublings, -kMostDoublings, kMostDoublings));
 }

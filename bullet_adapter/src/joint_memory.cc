@@ -27,8 +27,8 @@ struct Products {
   float ab = 0, aa = 0, bb = 0;
 };
 
-template <class Vector>
-float Dot(const Vector& a, const Vector& b) {
+template <class VectorA, class VectorB>
+float Dot(const VectorA& a, const VectorB& b) {
   return static_cast<float>(a[0]) * static_cast<float>(b[0]) +
          static_cast<float>(a[1]) * static_cast<float>(b[1]) +
          static_cast<float>(a[2]) * static_cast<float>(b[2]);
@@ -36,7 +36,8 @@ float Dot(const Vector& a, const Vector& b) {
 
 /// Without the half of a body that does not move: its lever reaches to the origin of the world.
 /// @param lever  what the products of levers count, which are lengths
-Products ProductsOf(const Row& a, const Row& b, const JointRows& joint, float lever) {
+template <class RowA, class RowB>
+Products ProductsOf(const RowA& a, const RowB& b, const JointRows& joint, float lever) {
   Products products;
   if (joint.a_moves) {
     products.ab += Dot(a.linear_a, b.linear_a) + lever * Dot(a.angular_a, b.angular_a);
@@ -77,15 +78,11 @@ float ShareOfRow(const AnyRow& row) {
   return linear == 0 ? kTurning : 1;
 }
 
-template <class AnyRow>
-bool AllAlike(const AnyRow* a, const AnyRow* b, const JointRows& joint, float lever) {
-  for (int i = 0; i < joint.rows; ++i) {
-    const auto [ab, aa, bb] = ProductsOf(a[i], b[i], joint, lever);
-    // rows that ask for nothing are alike
-    const bool alike = (aa == 0 && bb == 0) || (ab > 0 && ab * ab >= kAlike * kAlike * aa * bb);
-    if (!alike) return false;
-  }
-  return true;
+template <class RowA, class RowB>
+bool AreAlike(const RowA& a, const RowB& b, const JointRows& joint, float lever) {
+  const auto [ab, aa, bb] = ProductsOf(a, b, joint, lever);
+  // rows that ask for nothing are alike
+  return (aa == 0 && bb == 0) || (ab > 0 && ab * ab >= kAlike * kAlike * aa * bb);
 }
 
 }  // namespace
@@ -194,26 +191,38 @@ bool JointMemory::StartFrom(Joints* joints, int place, const JointRows& joint,
   if (entry.met_in != 0 || !entry.Is(*joint.joint, applied_[place])) return false;
   entry.met_in = groups_;
   const JointRows& last = joints->problem.joints[found];
-  const bool same = last.rows == joint.rows && last.written_out == joint.written_out &&
-                    last.a_moves == joint.a_moves && last.b_moves == joint.b_moves;
-  if (!same) return false;
+  if (last.a_moves != joint.a_moves || last.b_moves != joint.b_moves) return false;
   const double longer =
       ShareOfStart(static_cast<double>(entry.time_step), static_cast<double>(time_step_));
   const btScalar factor = factor_ * static_cast<btScalar>(longer);
-  const GroupProblem& from = joints->problem;
+  // a limit that is met or left is a row more or less, before or behind those that stay
   const auto start = [&](const auto& rows_before, const auto& impulses_before, const auto& rows_now,
                          auto* impulses_now) {
-    const auto* const rows = &rows_now[joint.first_row];
-    if (!AllAlike(&rows_before[last.first_row], rows, joint, lever_)) return false;
     using Impulse = std::remove_reference_t<decltype((*impulses_now)[0])>;
+    int next = 0;
     for (int i = 0; i < joint.rows; ++i) {
-      const auto share = static_cast<Impulse>(factor) * static_cast<Impulse>(ShareOfRow(rows[i]));
-      (*impulses_now)[joint.first_row + i] = share * impulses_before[last.first_row + i];
+      const auto& row = rows_now[joint.first_row + i];
+      int before = next;
+      while (before < last.rows &&
+             !AreAlike(rows_before[last.first_row + before], row, joint, lever_)) {
+        ++before;
+      }
+      if (before == last.rows) continue;
+      next = before + 1;
+      (*impulses_now)[joint.first_row + i] =
+          static_cast<Impulse>(factor) * static_cast<Impulse>(ShareOfRow(row)) *
+          static_cast<Impulse>(impulses_before[last.first_row + before]);
     }
-    return true;
   };
-  if (joint.written_out) return start(from.rows, from.impulses, group->rows, &group->impulses);
-  return start(from.joint_rows, from.joint_impulses, group->joint_rows, &group->joint_impulses);
+  const auto start_from = [&](const auto& rows_before, const auto& impulses_before) {
+    joint.written_out
+        ? start(rows_before, impulses_before, group->rows, &group->impulses)
+        : start(rows_before, impulses_before, group->joint_rows, &group->joint_impulses);
+  };
+  const GroupProblem& from = joints->problem;
+  last.written_out ? start_from(from.rows, from.impulses)
+                   : start_from(from.joint_rows, from.joint_impulses);
+  return true;
 }
 
 void JointMemory::Unread(GroupProblem* group) {

@@ -14,9 +14,9 @@ inline namespace CAIRN_BULLET_PRECISION {
 
 /// Impulses of joints from one solved group to the next, to start from, and from when a joint fell
 /// asleep to when it wakes. Nobody tells when a joint is removed, and another one may get its
-/// address: a joint is the one that is remembered only if its type, bodies and number of rows are,
-/// if it still has the applied impulse that it was left with, and if its rows point where they
-/// pointed.
+/// address: a joint is the one that is remembered only if its type and bodies are, and if it still
+/// has the applied impulse that it was left with. Of its rows those start from before that point
+/// where one did, in the same order: limits that are met and left leave the others as they are.
 class JointMemory {
  public:
   /// Begins a group; the applied impulses of the joints must be as the last group left them.

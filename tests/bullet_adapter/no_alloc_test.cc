@@ -51,7 +51,8 @@ TEST_P(AllocationsOf, ASubstepAreNoneOnceItsSizeWasSeen) {
   world.Step(1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, AllocationsOf, testing::Values("pyramid", "ragdolls", "rubble"),
+INSTANTIATE_TEST_SUITE_P(Every, AllocationsOf,
+                         testing::Values("pyramid", "ragdolls", "rubble", "chain"),
                          SceneTestName());
 
 }  // namespace

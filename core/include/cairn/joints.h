@@ -104,7 +104,9 @@ class Joints {
   PositionError worst_angle() const { return angle_; }
   /// What the rows of a joint exerted [N s] or [N m s], after Solve().
   std::span<const float> impulses_of(int joint) const {
-    return std::span(impulses_).subspan(joints_[joint].first_row, joints_[joint].rows);
+    const Joint& of = joints_[static_cast<std::size_t>(joint)];
+    return std::span(impulses_).subspan(static_cast<std::size_t>(of.first_row),
+                                        static_cast<std::size_t>(of.rows));
   }
 
  private:

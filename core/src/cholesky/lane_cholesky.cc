@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -23,7 +24,14 @@ struct Edge {
 /// What is left of the graph while nodes are taken out of it.
 class LaneOrder {
  public:
-  LaneOrder(int nodes, std::span<const NodePair> pairs) : blocks_(nodes), edges_(nodes) {
+  LaneOrder(int nodes, std::span<const NodePair> pairs)
+      : blocks_(nodes), lists_(nodes), edges_(2 * pairs.size()) {
+    for (const auto& [a, b] : pairs) {
+      ++lists_[a].begin;
+      ++lists_[b].begin;
+    }
+    int end = 0;
+    for (List& list : lists_) list.begin = std::exchange(end, end + list.begin);
     for (const auto& [a, b] : pairs) Join(a, b);
     for (int node = 0; node < nodes; ++node) left_.push_back(node);
   }
@@ -31,11 +39,13 @@ class LaneOrder {
   /// Nodes that are left.
   std::span<const int> left() const { return left_; }
   int blocks() const { return blocks_; }
-  std::span<const Edge> edges(int node) const { return edges_[node]; }
+  std::span<const Edge> edges(int node) const {
+    return std::span(edges_).subspan(lists_[node].begin, lists_[node].size);
+  }
   /// The block between two neighbours.
   int Between(int a, int b) const {
-    const auto& edges = edges_[a];
-    return std::find_if(edges.begin(), edges.end(), [b](const Edge& e) { return e.neighbour == b; })
+    const std::span<const Edge> of_a = edges(a);
+    return std::find_if(of_a.begin(), of_a.end(), [b](const Edge& e) { return e.neighbour == b; })
         ->block;
   }
 
@@ -46,32 +56,52 @@ class LaneOrder {
   void Remove(std::span<const int> round);
 
  private:
+  /// Where the edges of a node are. No node gets more than it began with: one that is taken out
+  /// leaves at most one edge to each of its neighbours, for its own.
+  struct List {
+    int begin = 0, size = 0;
+  };
+
   void Join(int a, int b) {
-    edges_[a].push_back({b, blocks_});
-    edges_[b].push_back({a, blocks_});
+    const auto append = [this](int node, int neighbour) {
+      List& list = lists_[node];
+      edges_[list.begin + list.size++] = {neighbour, blocks_};
+    };
+    append(a, b);
+    append(b, a);
     ++blocks_;
   }
+  /// Of @p node, the edge to that neighbour.
+  void Cut(int node, int neighbour) {
+    List& list = lists_[node];
+    Edge* const begin = &edges_[list.begin];
+    list.size = static_cast<int>(
+        std::remove_if(begin, begin + list.size,
+                       [neighbour](const Edge& e) { return e.neighbour == neighbour; }) -
+        begin);
+  }
   bool AreNeighbours(int a, int b) const {
-    const auto& edges = edges_[a];
-    return std::any_of(edges.begin(), edges.end(), [b](const Edge& e) { return e.neighbour == b; });
+    const std::span<const Edge> of_a = edges(a);
+    return std::any_of(of_a.begin(), of_a.end(), [b](const Edge& e) { return e.neighbour == b; });
   }
 
   int blocks_;
-  Array<Array<Edge>> edges_;
+  Array<List> lists_;
+  Array<Edge> edges_;
   Array<int> left_, round_;
   Array<char> taken_, beside_;
 };
 
 std::span<const int> LaneOrder::FindRound() {
   round_.clear();
-  taken_.assign(edges_.size(), 0);
-  beside_.assign(edges_.size(), 0);
-  for (size_t degree = 0; degree <= kMostNeighbours; ++degree) {
+  taken_.assign(lists_.size(), 0);
+  beside_.assign(lists_.size(), 0);
+  for (int degree = 0; degree <= kMostNeighbours; ++degree) {
     for (int node : left_) {
-      if (edges_[node].size() != degree || beside_[node] != 0) continue;
+      if (lists_[node].size != degree || beside_[node] != 0) continue;
       round_.push_back(node);
       taken_[node] = 1;
-      for (const Edge& edge : edges_[node]) beside_[edge.neighbour] = 1;
+      for (const Edge& edge : edges(node)) beside_[edge.neighbour] = 1;
     }
   }
   return round_;
@@ -79,11 +109,10 @@ std::span<const int> LaneOrder::FindRound() {
 
 void LaneOrder::Remove(std::span<const int> round) {
   for (int node : round) {
-    for (const Edge& edge : edges_[node]) {
-      std::erase_if(edges_[edge.neighbour], [node](const Edge& e) { return e.neighbour == node; });
-    }
-    if (edges_[node].size() < 2) continue;
-    const int a = edges_[node][0].neighbour, b = edges_[node][1].neighbour;
+    const std::span<const Edge> of_node = edges(node);
+    for (const Edge& edge : of_node) Cut(edge.neighbour, node);
+    if (of_node.size() < 2) continue;
+    const int a = of_node[0].neighbour, b = of_node[1].neighbour;
     if (!AreNeighbours(a, b)) Join(a, b);
   }
   std::erase_if(left_, [this](int node) { return taken_[node] != 0; });

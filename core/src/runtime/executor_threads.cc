@@ -2,6 +2,7 @@
 // In place of executor_tbb.cc where Cairn is built without oneTBB (CAIRN_TBB=OFF).
 #include <algorithm>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -9,37 +10,59 @@
 
 #include "runtime/own_threads.h"
 
+#ifdef __unix__
+#include <unistd.h>
+#endif
+
 namespace cairn {
 namespace {
 
-/// Threads of its own, started by the first task.
+/// Of the process; a child that fork() made has another one.
+long ProcessId() {
+#ifdef __unix__
+  return static_cast<long>(getpid());
+#else
+  return 0;
+#endif
+}
+
+/// Threads of its own, started by the first task. A process that fork() made has none of them: the
+/// caller does their work.
 class ThreadExecutor final : public Executor {
  public:
   explicit ThreadExecutor(int threads) : most_(threads - 1) {}
   /// Tasks that no thread came for are run here: by now they return at once.
   ~ThreadExecutor() override {
-    {
-      const std::lock_guard lock(mutex_);
-      ends_ = true;
+    if (ProcessId() != process_) {
+      // nobody is there to be joined, or to let go of what it waits for
+      for (std::thread& thread : threads_) thread.detach();
+      static_cast<void>(shared_.release());
+      for (const Task& task : left_) task.work(task.what);
+      return;
     }
-    wake_.notify_all();
+    {
+      const std::lock_guard lock(shared_->mutex);
+      shared_->ends = true;
+    }
+    shared_->wake.notify_all();
     for (std::thread& thread : threads_) thread.join();
-    for (const Task& task : tasks_) task.work(task.what);
+    for (const Task& task : shared_->tasks) task.work(task.what);
   }
 
   void Submit(void (*work)(void*), void* what) override {
+    if (ProcessId() != process_) return left_.push_back({work, what});
     if (static_cast<int>(threads_.size()) < most_) AddThread();
     {
-      const std::lock_guard lock(mutex_);
-      tasks_.push_back({work, what});
+      const std::lock_guard lock(shared_->mutex);
+      shared_->tasks.push_back({work, what});
     }
-    wake_.notify_one();
+    shared_->wake.notify_one();
   }
 
  private:
   void AddThread() {
     try {
-      threads_.emplace_back([this] { Work(); });
+      threads_.emplace_back([shared = shared_.get()] { Work(shared); });
     } catch (const std::system_error&) {
       // there are no more to be had: those that there are, or the caller, do the work
       most_ = static_cast<int>(threads_.size());
@@ -51,24 +74,30 @@ class ThreadExecutor final : public Executor {
     void* what;
   };
 
-  void Work() {
-    for (std::unique_lock lock(mutex_);;) {
-      wake_.wait(lock, [this] { return ends_ || !tasks_.empty(); });
-      if (ends_) return;
-      const Task task = tasks_.back();
-      tasks_.pop_back();
+  struct Shared {
+    std::mutex mutex;
+    std::condition_variable wake;
+    std::vector<Task> tasks;
+    bool ends = false;
+  };
+
+  static void Work(Shared* shared) {
+    for (std::unique_lock lock(shared->mutex);;) {
+      shared->wake.wait(lock, [shared] { return shared->ends || !shared->tasks.empty(); });
+      if (shared->ends) return;
+      const Task task = shared->tasks.back();
+      shared->tasks.pop_back();
       lock.unlock();
       task.work(task.what);
       lock.lock();
     }
   }
 
+  const long process_ = ProcessId();
   int most_;
   std::vector<std::thread> threads_;
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::vector<Task> tasks_;
-  bool ends_ = false;
+  std::unique_ptr<Shared> shared_ = std::make_unique<Shared>();
+  std::vector<Task> left_;  ///< those of another process than threads_
 };
 
 }  // namespace

@@ -177,5 +177,41 @@ TEST(SharedSolver, LeavesATowerAtRestBesideAWorldOfShorterSteps) {
   EXPECT_LT(speed, 0.03);
 }
 
+// A limit that is met, or a motor that is switched on, is one row more of its joint. The others
+// keep their load, as one sweep shows, which finds a thirtieth of it from nothing.
+TEST(JointMemory, KeepsTheLoadWhereRowsComeAndGo) {
+  constexpr int kLinks = 3;
+  constexpr btScalar kHalf = btScalar(0.25);
+  bullet::ConstraintSolver solver;
+  solver.settings().steps = false;
+  World world(&solver);
+  const btVector3 top(0, kHalf, 0), axis(0, 0, 1);
+  std::vector<btHingeConstraint*> hinges;
+  btRigidBody* last = nullptr;
+  for (int i = 0; i < kLinks; ++i) {
+    btRigidBody* const link = world.AddBox({btScalar(0.05), kHalf, btScalar(0.05)},
+                                           {.mass = btScalar(i == kLinks - 1 ? 50 : 1),
+                                            .pose = At(0, -kHalf * btScalar(1 + 2 * i), 0)});
+    auto hinge = last == nullptr
+                     ? std::make_unique<btHingeConstraint>(*link, top, axis)
+                     : std::make_unique<btHingeConstraint>(*last, *link, -top, top, axis, axis);
+    hinges.push_back(hinge.get());
+    world.AddJoint(std::move(hinge), ConnectedBodies::kPassThrough);
+    last = link;
+  }
+  btJointFeedback feedback;
+  hinges[0]->setJointFeedback(&feedback);
+  for (int step = 0; step < 300; ++step) world.Step();
+  world.solver_info().m_numIterations = 1;
+  const double weight = (kLinks - 1 + 50) * kGravity;
+  for (const bool on : {true, false}) {
+    for (btHingeConstraint* const hinge : hinges) {
+      hinge->enableAngularMotor(on, 0, btScalar(1e-4));
+    }
+    world.Step();
+    EXPECT_GT(feedback.m_appliedForceBodyA.length(), 0.5 * weight) << on;
+  }
+}
+
 }  // namespace
 }  // namespace cairn::test

@@ -126,8 +126,12 @@ class GeometricStiffness {
   void Add(int body, const Vector3& arm, const Vector3& force);
   void FindJointed(const ContactProblem& problem);
   void FindPulled(double time_step, const ContactProblem& problem, const Impulses& impulses);
-  bool IsPulled(int body) const { return body != kWorld && pull_[body] > 0; }
-  bool IsAnchored(int body) const { return body != kWorld && anchored_[body] != 0; }
+  bool IsPulled(int body) const {
+    return body != kWorld && pull_[static_cast<std::size_t>(body)] > 0;
+  }
+  bool IsAnchored(int body) const {
+    return body != kWorld && anchored_[static_cast<std::size_t>(body)] != 0;
+  }
   void AddJoints(double time_step, const ContactProblem& problem, const Impulses& impulses);
   /// The same for three rows of a joint; see AreWorldAxes().
   void AddAlongWorldAxes(double time_step, const Joint& joint, const JointRow* rows,
