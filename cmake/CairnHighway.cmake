@@ -3,6 +3,9 @@ set(CAIRN_HIGHWAY_URL https://github.com/google/highway/archive/refs/tags/1.0.3.
     "Where CAIRN_FETCH_DEPENDENCIES gets Highway from, or a file: the same archive, which is checked")
 mark_as_advanced(CAIRN_HIGHWAY_URL)
 
+if(TARGET hwy::hwy)
+  return()
+endif()
 if(NOT CAIRN_FETCH_DEPENDENCIES)
   find_package(hwy 1.0.3 REQUIRED)
   cairn_global(hwy::hwy)

@@ -14,9 +14,9 @@ namespace cairn::simd {
 
 /// While it lives, numbers too small for a normal float count as zero: impulses that decay towards
 /// zero would otherwise slow a sweep down by up to a hundred times. Results are rounded to the
-/// nearest, and nothing traps: lanes that nobody asks for divide by zero. Every kernel has one, so
-/// that the mode of the calling thread changes no bits. To write the mode takes as long as some
-/// rows of a sweep: inside another one it is left as it is.
+/// nearest, and nothing traps: lanes that nobody asks for divide by zero. Every kernel has one, or
+/// its caller, so that the mode of the thread changes no bits. To write the mode takes as long as
+/// some rows of a sweep: inside another one it is left as it is.
 ///
 /// One case is left to the CPU: what is below the smallest normal float before it is rounded, and
 /// that float after, is this float on x86, and zero on ARM. No test has met it.

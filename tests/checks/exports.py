@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""Shared libraries show their public interface and nothing else, have their version in their name, do nothing when they
-are loaded, keep no global but those of a list, and still have the names that cmake/exports/*.abi has:
+"""Shared libraries show their public interface and nothing else, have their version in their name, stay when they are
+closed, do nothing when they are loaded, keep no global but those of a list, and still have the names that
+cmake/exports/*.abi has:
 exports.py BUILD [--write], of a build with -DBUILD_SHARED_LIBS=ON -DCAIRN_TESTS=OFF. --write keeps the names of this
 build there (abigail-tools); without debug information these are names, not the layout of structs."""
 import glob
@@ -74,6 +75,8 @@ def check(path):
         errors.append(f"{library}: runs {initialisers(path)} functions when it is loaded")
     if not re.search(rf"SONAME.*\[lib{library}\.so\.\d+\.\d+\]", run("readelf", "-dW", path)):
         errors.append(f"{library}: no version in its soname")
+    if "NODELETE" not in run("readelf", "-dW", path):
+        errors.append(f"{library}: may be unloaded while threads are in it")
     errors += [f"{library}: keeps a global, {name}" for name in unknown_globals(path)]
     errors += [f"{library}: {line}" for line in removed(path)]
     return describe(path, names), errors

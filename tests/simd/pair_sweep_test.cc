@@ -332,6 +332,8 @@ TEST_P(PairKernelsOf, ContactsKeepTheMomentum) {
 
 #if defined(__SSE2__)
 constexpr unsigned kFlush = 0x8000, kZeros = 0x0040, kModes = 0xffc0;
+/// What the mode of a program may be: rounding up, and traps of what is invalid or divided by zero.
+constexpr unsigned kRoundUp = 0x4000, kTraps = 0x0280;
 
 TEST_P(PairKernelsOf, TheModeOfTheCallerIsRestoredAndChangesNoBits) {
   PairScene expected = RandomScene(RandomSpec(1));
@@ -342,19 +344,22 @@ TEST_P(PairKernelsOf, TheModeOfTheCallerIsRestoredAndChangesNoBits) {
   for (BodyLane& body : expected.bodies) {
     for (float& u : body.u) u *= 0x1p-126f;
   }
-  PairScene flushing = expected;
   const unsigned before = _mm_getcsr();
   for (const Step& step : kSteps) {
+    const PairScene start = expected;
     expected.Run(kernels().*step.kernel);
     const unsigned after = _mm_getcsr();
     EXPECT_EQ(after & kModes, before & kModes) << step.name;
 
-    _mm_setcsr(before | kFlush | kZeros);
-    flushing.Run(kernels().*step.kernel);
-    const unsigned still = _mm_getcsr();
-    _mm_setcsr(before);
-    EXPECT_EQ(still & kModes, (before | kFlush | kZeros) & kModes) << step.name;
-    EXPECT_TRUE(SameBits(flushing, expected)) << step.name;
+    for (const unsigned mode : {before | kFlush | kZeros, before | kRoundUp, before & ~kTraps}) {
+      PairScene in_mode = start;
+      _mm_setcsr(mode);
+      in_mode.Run(kernels().*step.kernel);
+      const unsigned still = _mm_getcsr();
+      _mm_setcsr(before);
+      EXPECT_EQ(still & kModes, mode & kModes) << step.name;
+      EXPECT_TRUE(SameBits(in_mode, expected)) << step.name << " in mode " << mode;
+    }
   }
 }
 

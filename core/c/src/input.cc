@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "input.h"
 
-#include <cctype>
 #include <cmath>
 
 #include "same_layout.h"
@@ -13,7 +12,7 @@ namespace {
 std::string NameOfC(const char* name) {
   std::string of_c;
   for (bool upper = false; *name != '\0'; ++name) {
-    if (*name != '_') of_c += upper ? static_cast<char>(std::toupper(*name)) : *name;
+    if (*name != '_') of_c += upper ? static_cast<char>(*name - 'a' + 'A') : *name;
     upper = *name == '_';
   }
   return of_c;

@@ -12,6 +12,7 @@
 #include "cycle/joint_arms.h"
 #include "problem/body_name.h"
 #include "problem/islands.h"
+#include "simd/flush_denormals.h"
 #include "simd/principal_axes.h"
 #include "simd/raised_inertia.h"
 
@@ -93,6 +94,8 @@ std::span<const GeometricStiffness::Raised> GeometricStiffness::RaiseInertia(
   raised_.clear();
   raised_.reserve(memories_.size());
   FindStrained(time_step, bodies, jointed);
+  if (strained_.empty()) return raised_;
+  const simd::FlushDenormals flush;
   simd::PrincipalAxes axes;
   simd::RaisedInertia lanes;
   const simd::RaiseRules rules = {time_step, kThreshold, kHold, kSameMoment, kOnLine};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -348,6 +349,22 @@ TEST(Tension, IsNotAppliedTwice) {
   }
   EXPECT_GT(strain, 4) << "not a hard case";
 }
+
+#ifdef __GLIBC__
+// As debug builds of engines do. Lanes of a factor that no body is in divide by zero.
+TEST(Tension, StepsOfAnEngineThatTrapsInvalidNumbersTrapNothing) {
+  Chain chain(6, 1000, {.step_policy = StepPolicy::kAlways});
+  int accepted = 0;
+  const int before = feenableexcept(FE_INVALID | FE_DIVBYZERO);
+  for (int step = 0; step < 30; ++step) {
+    chain.Step();
+    accepted += chain.world.report.steps_accepted;
+  }
+  fedisableexcept(FE_ALL_EXCEPT);
+  feenableexcept(before);
+  EXPECT_GT(accepted, 0);
+}
+#endif
 
 TEST(Tension, IsForgottenOnResetAndWhereItIsOff) {
   Chain chain(6, 1000, {}, 0);

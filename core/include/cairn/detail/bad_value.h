@@ -34,7 +34,7 @@ std::string Describe(const BadValue& bad);
 
 /// The first value that is out of its range; ranges are those of contacts.h and joints.h.
 BadValue FindBad(const ContactOptions& options, const char* argument);
-/// @param argument  of which erp is, for its name
+/// @param field  what it is called: an erp
 BadValue FindBadErp(double erp, const char* field);
 /// @param bodies  of the step: how many there are
 BadValue FindBad(const Touch& touch, std::span<const TouchPoint> points, int bodies);
