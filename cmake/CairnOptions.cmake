@@ -37,7 +37,7 @@ option(CAIRN_TBB "Threads from oneTBB; else from the standard library" ON)
 option(CAIRN_FETCH_DEPENDENCIES "Download Highway where it is not found" OFF)
 # For builds from nothing that are not to be timed. ccache does not keep files compiled so, and an include of others
 # that is missing is not seen.
-option(CAIRN_QUICK_BUILD "Precompile headers of others, and optimise tool and tests less" OFF)
+option(CAIRN_QUICK_BUILD "Precompile headers of others for libraries and tests, and optimise tests less" OFF)
 set(CAIRN_PAGE AUTO CACHE STRING "Scripts in the page of cairn run --report: AUTO (with npm, if it is found) or OFF")
 set_property(CACHE CAIRN_PAGE PROPERTY STRINGS AUTO OFF)
 set(CAIRN_PLAY AUTO CACHE STRING "The window of cairn play: AUTO (if GLFW, Dear ImGui and OpenGL are found), ON or OFF")

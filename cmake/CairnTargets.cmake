@@ -16,7 +16,7 @@ function(cairn_global)
 endfunction()
 
 # Shared libraries choose by a list what they show (cmake/exports). A parent project that hides everything hides more.
-if(BUILD_SHARED_LIBS)
+if(BUILD_SHARED_LIBS AND CMAKE_CXX_VISIBILITY_PRESET)
   set(CMAKE_CXX_VISIBILITY_PRESET default)
   set(CMAKE_VISIBILITY_INLINES_HIDDEN OFF)
 endif()

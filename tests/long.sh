@@ -46,7 +46,7 @@ sanitizers() {
 
 # Each program once at least, then from the start until the time is up.
 tsan() {
-  local end=$((SECONDS + 60 * $1)) programs=(cairn_lcp_test cairn_blocks_test cairn_faults_test
+  local end=$((SECONDS + 60 * $1)) programs=(cairn_lcp_test cairn_blocks_test cairn_plan_test cairn_faults_test
     cairn_recording_test cairn_adapter_fuzz_test)
   build_tests tsan "${programs[@]}" cairn_tool
   export TSAN_OPTIONS="${TSAN_OPTIONS:-halt_on_error=1}"
