@@ -33,7 +33,8 @@
   SCENE(Crane)                    \
   SCENE(Chandelier)               \
   SCENE(Truck)                    \
-  SCENE(CrateBridge)
+  SCENE(CrateBridge)              \
+  SCENE(Balls)
 
 namespace cairn::bench {
 

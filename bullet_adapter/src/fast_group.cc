@@ -56,16 +56,20 @@ void FastGroup::Read(const Group& group, const btContactSolverInfo& info, SweepL
   twist_memory_.Begin();
   const ContactSoftness softness(info, options, steps_.resting.Next(info.m_timeStep));
   const btContactSolverInfo of_contacts = ForContacts(info, options);
-  contacts_.Begin(of_contacts, limits, softness, start);
+  const FrictionBounds bounds =
+      options.two_friction_directions ? FrictionBounds::kOfSlide : FrictionBounds::kApart;
+  contacts_.Begin(of_contacts, limits, bounds, softness, start);
   const bool all = options.contacts == ContactForm::kManifolds && threads_->several() &&
                    contacts_.AppendAll(group.manifolds, &bodies_, &pushes_, threads_);
-  if (!all) ReadContacts(group.manifolds, of_contacts, limits, options.contacts, softness, start);
+  if (!all)
+    ReadContacts(group.manifolds, of_contacts, limits, bounds, options.contacts, softness, start);
   contacts_.End();
   FindMotions();
 }
 
 void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
-                             const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
+                             const btContactSolverInfo& info, SweepLimits limits,
+                             FrictionBounds bounds, ContactForm form,
                              const ContactSoftness& softness, const ContactStart& start) {
   const ContactTerms terms(info, limits);
   ContactRowBuilder builder(terms, bodies_, &group_, &pushes_);
@@ -76,7 +80,7 @@ void FastGroup::ReadContacts(std::span<btPersistentManifold* const> manifolds,
     const bool taken =
         form == ContactForm::kManifolds && contacts_.Append(manifold, &bodies_, &pushes_);
     if (taken) continue;
-    ReadManifold(manifold, info, softness, start, &bodies_, &input);
+    ReadManifold(manifold, info, bounds, softness, start, &bodies_, &input);
     builder.Append(input);
   }
 }

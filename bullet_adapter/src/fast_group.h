@@ -83,8 +83,8 @@ class FastGroup {
 
  private:
   void ReadContacts(std::span<btPersistentManifold* const> manifolds,
-                    const btContactSolverInfo& info, SweepLimits limits, ContactForm form,
-                    const ContactSoftness& softness, const ContactStart& start);
+                    const btContactSolverInfo& info, SweepLimits limits, FrictionBounds bounds,
+                    ContactForm form, const ContactSoftness& softness, const ContactStart& start);
   void FindMotions();
 
   detail::Threads* threads_ = nullptr;

@@ -31,6 +31,7 @@ struct Point {
   Line axis[3];  ///< the first of the plane across the normal
   Line t1[3], t2[3];
   Line heading;   ///< of t1
+  Line across;    ///< coefficient of friction along t2
   Line slide[3];  ///< relative velocity that friction works against
   Line wanted;    ///< along the normal, relative to the velocity without constraints
   Line x[3];      ///< start impulses
@@ -80,8 +81,9 @@ class Packer {
     }
     for (int p = 0; p < lanes_.points && lanes_.tangents > 0; ++p) {
       Line* const x = x_ + lanes_.points + p * lanes_.tangents;
-      PutFriction(points[p], points[p].t1, points[p].x[1], x);
-      if (lanes_.tangents > 1) PutFriction(points[p], points[p].t2, points[p].x[2], x + 1);
+      PutFriction(points[p], points[p].t1, points[p].number[kFriction], points[p].x[1], x);
+      if (lanes_.tangents > 1)
+        PutFriction(points[p], points[p].t2, points[p].across, points[p].x[2], x + 1);
       for (int k = 0; k < 3; ++k) directions[kDirectionLines * p + k] = points[p].t1[k];
       directions[kDirectionLines * p + 3] = points[p].heading;
     }
@@ -139,6 +141,20 @@ class Packer {
     Put(Cross(t1, n), point->t2, l);
     Store(ToHeading(Dot(t1, axis), Dot(t1, Cross(n, axis))), &point->heading, l);
     Put(straight + (lanes_.spin_before_torques ? turned : turning), point->slide, l);
+
+    const V friction = Load(point->number[kFriction], l);
+    const V stopped = friction * hn::Max(zero - along, Pushed(l)) * per_length;
+    const M less = hn::AndNot(is_given, slides);
+    const bool apart = lanes_.bounded_apart;
+    const V share = apart ? Set(1) : hn::IfThenElse(less, hn::Min(stopped, Set(1)), Set(1));
+    Store(friction * share, &point->across, l);
+  }
+
+  /// What external impulses add to the speed of a body, the larger of both.
+  HWY_INLINE V Pushed(int l) const {
+    const Vector a = a_.free_velocity(l) - a_.start_velocity(l);
+    const Vector b = b_.free_velocity(l) - b_.start_velocity(l);
+    return hn::Sqrt(hn::Max(Dot(a, a), Dot(b, b)));
   }
 
   /// Start impulses along the directions of this frame, inside their bounds.
@@ -152,11 +168,12 @@ class Packer {
     const Vector push = along * axis + beside * Cross(n, axis);
     const V normal = Load(point->start[0], l), friction = Load(point->number[kFriction], l);
     // + 0: no target may leave a -0
-    const V x = hn::Max(normal, zero) + zero, bound = friction * x;
+    const V x = hn::Max(normal, zero) + zero;
+    const V bound = friction * x, bound_across = Load(point->across, l) * x;
     const V x1 = Dot(push, At(point->t1, l)), x2 = Dot(push, At(point->t2, l));
     Store(x, point->x, l);
     Store(hn::Min(hn::Max(x1, zero - bound), bound) + zero, point->x + 1, l);
-    Store(hn::Min(hn::Max(x2, zero - bound), bound) + zero, point->x + 2, l);
+    Store(hn::Min(hn::Max(x2, zero - bound_across), bound_across) + zero, point->x + 2, l);
 
     // comparisons with what is not a number are false
     const auto in_range = [&](V value) HWY_ATTR { return hn::Le(hn::Abs(value), most); };
@@ -257,10 +274,11 @@ class Packer {
     ++out_;  // the coupling
   }
 
-  void PutFriction(const Point& point, const Line* direction, const Line& start, Line* x) {
+  void PutFriction(const Point& point, const Line* direction, const Line& coefficient,
+                   const Line& start, Line* x) {
     PutRow(point, direction, nullptr,
            [&](Vector d, int l) HWY_ATTR { return hn::Zero(D()) - Dot(d, At(point.slide, l)); });
-    *out_++ = point.number[kFriction];
+    *out_++ = coefficient;
     ++out_;  // the coupling
     *x = start;
   }

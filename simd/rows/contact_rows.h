@@ -37,7 +37,7 @@ struct ContactLanes {
   int points, tangents;
   bool soft, twists;
   float bounce_speed;
-  bool spin_before_torques;
+  bool spin_before_torques, bounded_apart;
   int lanes;  ///< In use: the first ones, a multiple of four.
   const ContactBody* a[kLanes] = {};
   const ContactBody* b[kLanes] = {};

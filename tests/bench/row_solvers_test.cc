@@ -91,6 +91,7 @@ class Frame {
             NameOfTest() + "_" + std::string(scene) + std::to_string(number) + ".cairn";
     bullet::Options options{.mode = mode};
     options.warm_start_friction = options.warm_start_joints = false;
+    options.two_friction_directions = false;  // as Bullet's
     bullet::ConstraintSolver recording({}, options);
     recording.RecordNext(path_);
     world_.world().bullet()->applyGravity();  // the step is over, and forces are cleared

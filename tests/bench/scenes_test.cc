@@ -178,6 +178,7 @@ TEST(Scenes, HaveTheSizesTheyAreKnownFor) {
   EXPECT_EQ(FindScene("ragdolls")->known_facts(20).joints, 200);
   EXPECT_EQ(bodies("rubble", 600), 600);
   EXPECT_EQ(bodies("islands", 300), 1500);
+  EXPECT_EQ(bodies("balls", 1000), 1000);
   EXPECT_EQ(bodies("stairs", 1), 11);
   EXPECT_EQ(FindScene("stairs")->known_facts(1).mass_kg, 72);
   EXPECT_EQ(bodies("car", 1), 5);
@@ -208,7 +209,7 @@ TEST(Scenes, HaveTheSizesTheyAreKnownFor) {
 
 TEST(Scenes, AreFoundByNameOnly) {
   const std::vector<std::string> names = SceneNames();
-  EXPECT_EQ(names.size(), 27u);
+  EXPECT_EQ(names.size(), 28u);
   EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
   for (const SceneInfo& info : Scenes()) EXPECT_EQ(FindScene(info.name), &info);
   EXPECT_EQ(FindScene("sandcastle"), nullptr);

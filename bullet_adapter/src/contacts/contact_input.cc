@@ -16,6 +16,7 @@ struct Sides {
   btVector3 origin_a, origin_b;
   /// With what forces add over the step; zero for what has no number.
   btVector3 velocity_a, spin_a, velocity_b, spin_b;
+  btScalar pushed = 0;  ///< What forces add to the speed of a body, the larger of both [m/s].
 };
 
 Sides ReadSides(const btPersistentManifold& manifold, const ManifoldInput& numbers,
@@ -32,16 +33,19 @@ Sides ReadSides(const btPersistentManifold& manifold, const ManifoldInput& numbe
     const Motion& motion = bodies.motion(numbers.body_a);
     sides.velocity_a = motion.velocity + motion.external_velocity;
     sides.spin_a = motion.spin + motion.external_spin;
+    sides.pushed = motion.external_velocity.length();
   }
   if (numbers.body_b != kWorld) {
     const Motion& motion = bodies.motion(numbers.body_b);
     sides.velocity_b = motion.velocity + motion.external_velocity;
     sides.spin_b = motion.spin + motion.external_spin;
+    sides.pushed = btMax(sides.pushed, motion.external_velocity.length());
   }
   return sides;
 }
 
-void ReadFriction(const Sides& sides, const btContactSolverInfo& info, ContactInput* input) {
+void ReadFriction(const Sides& sides, const btContactSolverInfo& info, FrictionBounds bounds,
+                  ContactInput* input) {
   btManifoldPoint& point = *input->point;
   const btVector3 velocity = sides.velocity_a + sides.spin_a.cross(input->arm_a) -
                              (sides.velocity_b + sides.spin_b.cross(input->arm_b));
@@ -50,7 +54,12 @@ void ReadFriction(const Sides& sides, const btContactSolverInfo& info, ContactIn
   input->tangents[0] = directions.first;
   input->tangents[1] = directions.second;
   input->left = directions.left;
-  input->friction = btMax(btScalar(0), point.m_combinedFriction);
+  const btScalar friction = btMax(btScalar(0), point.m_combinedFriction);
+  input->friction[0] = input->friction[1] = friction;
+  if (directions.slide > 0 && bounds == FrictionBounds::kOfSlide) {
+    const btScalar stopped = friction * btMax(-input->normal.dot(velocity), sides.pushed);
+    input->friction[1] *= btMin(btScalar(1), stopped / directions.slide);
+  }
   input->slip = directions.by_user ? point.m_frictionCFM : btScalar(0);
   input->tangent_speeds[0] = directions.by_user ? point.m_contactMotion1 : btScalar(0);
   input->tangent_speeds[1] = directions.by_user ? point.m_contactMotion2 : btScalar(0);
@@ -104,8 +113,8 @@ void Start(const ContactStart& start, ContactInput* input) {
   for (btScalar& impulse : input->twist_impulses) impulse *= start.friction;
 }
 
-void ReadPoint(const Sides& sides, const btContactSolverInfo& info, const Softness& softness,
-               ContactInput* input) {
+void ReadPoint(const Sides& sides, const btContactSolverInfo& info, FrictionBounds bounds,
+               const Softness& softness, ContactInput* input) {
   const btManifoldPoint& point = *input->point;
   input->arm_a = point.getPositionWorldOnA() - sides.origin_a;
   input->arm_b = point.getPositionWorldOnB() - sides.origin_b;
@@ -114,15 +123,15 @@ void ReadPoint(const Sides& sides, const btContactSolverInfo& info, const Softne
   input->restitution = point.m_combinedRestitution;
   input->normal_impulse = point.m_appliedImpulse;
   input->softness = softness;
-  ReadFriction(sides, info, input);
+  ReadFriction(sides, info, bounds, input);
   ReadTwists(sides.manifold, input);
 }
 
 }  // namespace
 
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
-                  const ContactSoftness& softness, const ContactStart& start, BodyTable* bodies,
-                  ManifoldInput* result) {
+                  FrictionBounds bounds, const ContactSoftness& softness, const ContactStart& start,
+                  BodyTable* bodies, ManifoldInput* result) {
   result->points = 0;
   if (manifold->getNumContacts() == 0) return;
   const ContactEnd a = bodies->EndOf(*manifold->getBody0());
@@ -140,7 +149,7 @@ void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& inf
     if (!(point.getDistance() <= threshold)) continue;
     ContactInput& input = result->inputs[result->points++];
     input.point = &point;
-    ReadPoint(sides, info, softness.Of(point, common), &input);
+    ReadPoint(sides, info, bounds, softness.Of(point, common), &input);
     Start(start, &input);
   }
 }

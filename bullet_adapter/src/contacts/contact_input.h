@@ -22,7 +22,7 @@ struct ContactInput {
   btScalar distance;           ///< With the slop of its softness [m]; negative inside.
   btScalar restitution;        ///< [1]
   Softness softness;           ///< Of the normal.
-  btScalar friction;           ///< Coefficient [1], >= 0.
+  btScalar friction[2];        ///< Coefficients along the tangents [1], >= 0.
   btScalar slip;               ///< Bullet's cfm of friction, in units of its step D [1].
   btScalar tangent_speeds[2];  ///< Targets of friction [m/s].
   btScalar normal_impulse;     ///< The start [N s].
@@ -52,8 +52,8 @@ struct ContactStart {
 /// else. The result has no points if neither body reacts.
 /// @param[out] result  only as many inputs are written as it has points
 void ReadManifold(btPersistentManifold* manifold, const btContactSolverInfo& info,
-                  const ContactSoftness& softness, const ContactStart& start, BodyTable* bodies,
-                  ManifoldInput* result);
+                  FrictionBounds bounds, const ContactSoftness& softness, const ContactStart& start,
+                  BodyTable* bodies, ManifoldInput* result);
 
 }  // namespace CAIRN_BULLET_PRECISION
 }  // namespace cairn::bullet

@@ -20,7 +20,8 @@ void Put(const btVector3& from, float* to) {
 }  // namespace
 
 void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
-                          const ContactSoftness& softness, const ContactStart& start) {
+                          FrictionBounds bounds, const ContactSoftness& softness,
+                          const ContactStart& start) {
   manifold_count_ = 0;
   count_ = 0;
   twists_.clear();
@@ -30,7 +31,7 @@ void ContactPoints::Begin(const btContactSolverInfo& info, SweepLimits limits,
   softness_ = softness;
   // below 0 all bounce
   law_ = {.bounce_speed = static_cast<float>(NotBelowZero(info.m_restitutionVelocityThreshold)),
-          .host = {.spin_before_torques = true}};
+          .host = {.spin_before_torques = true, .bounded_apart = bounds == FrictionBounds::kApart}};
   like_ = {.body_a = kWorld, .body_b = kWorld};
   like_.tangents = (info.m_solverMode & SOLVER_USE_2_FRICTION_DIRECTIONS) != 0 ? 2 : 1;
   if (limits == SweepLimits::kBullet) like_.host.max_sweeps = info.m_numIterations;

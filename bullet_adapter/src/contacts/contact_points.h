@@ -24,8 +24,8 @@ inline namespace CAIRN_BULLET_PRECISION {
 class ContactPoints {
  public:
   /// Begins a group.
-  void Begin(const btContactSolverInfo& info, SweepLimits limits, const ContactSoftness& softness,
-             const ContactStart& start);
+  void Begin(const btContactSolverInfo& info, SweepLimits limits, FrictionBounds bounds,
+             const ContactSoftness& softness, const ContactStart& start);
   /// Ends it: no manifold follows.
   void End();
   /// Appends a manifold, and its deep penetration to @p pushes. False if it has to be written out

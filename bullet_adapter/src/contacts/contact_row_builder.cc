@@ -118,7 +118,7 @@ void ContactRowBuilder::AppendFriction(const ContactInput& input, int tangents, 
     Row& row = AppendRow(axes, input.tangent_impulses[k]);
     row.target = Target(input.tangent_speeds[k] - TangentSpeed(axes));
     row.parent = rows->normal_row;
-    row.friction = input.friction;
+    row.friction = input.friction[k];
     if (input.slip == 0) continue;
     // Bullet has it in units of its step
     row.compliance =

@@ -28,10 +28,16 @@ PlaneVector FromHeading(btScalar heading) {
   return {x * inverse_length, y * inverse_length};
 }
 
+constexpr int kSlides = btCollisionObject::CF_ANISOTROPIC_FRICTION;
+
+bool IsAnisotropic(const btPersistentManifold& manifold) {
+  return manifold.getBody0()->hasAnisotropicFriction(kSlides) ||
+         manifold.getBody1()->hasAnisotropicFriction(kSlides);
+}
+
 btVector3 AnisotropicForBoth(const btPersistentManifold& manifold, const btVector3& direction) {
-  constexpr int kMode = btCollisionObject::CF_ANISOTROPIC_FRICTION;
-  return Anisotropic(*manifold.getBody1(), kMode,
-                     Anisotropic(*manifold.getBody0(), kMode, direction));
+  return Anisotropic(*manifold.getBody1(), kSlides,
+                     Anisotropic(*manifold.getBody0(), kSlides, direction));
 }
 
 }  // namespace
@@ -63,7 +69,9 @@ FrictionDirections ChooseDirections(int solver_mode, const btVector3& velocity,
   const btVector3 lateral = velocity - normal * normal.dot(velocity);
   const btScalar speed2 = lateral.length2();
   if (by_velocity && speed2 > SIMD_EPSILON) {
-    const btVector3 unit = lateral * (1 / btSqrt(speed2));
+    const btScalar speed = btSqrt(speed2);
+    if (!IsAnisotropic(manifold)) result.slide = speed;
+    const btVector3 unit = lateral * (1 / speed);
     result.left.heading = ToHeading(unit.dot(result.plane_x), unit.dot(result.plane_y));
     point->m_lateralFrictionDir1 = result.first = AnisotropicForBoth(manifold, unit);
     if (!both) return result;

@@ -9,6 +9,12 @@
 namespace cairn::bullet {
 inline namespace CAIRN_BULLET_PRECISION {
 
+/// What bounds a second direction of friction.
+enum class FrictionBounds {
+  kOfSlide,  ///< Less where a point slides along the first one, see ContactPoint.
+  kApart,    ///< The same as the first one, as Bullet.
+};
+
 /// What is written to a contact point together with its impulses, so that the next substep knows
 /// along which directions the lateral ones were.
 struct LeftDirections {
@@ -26,6 +32,8 @@ struct FrictionDirections {
   /// btPlaneSpace1 of the normal, unless they are the user's.
   btVector3 plane_x{0, 0, 0}, plane_y{0, 0, 0};
   int count = 1;  ///< 1 or 2
+  /// The speed along the first where the point slides so, 0 where friction is anisotropic [m/s].
+  btScalar slide = 0;
   LeftDirections left;
   bool by_user = false;  ///< Set before the solver: with target speeds of their own.
   /// The same as in the substep before, so that impulses can be taken over as they are.

@@ -14,9 +14,12 @@ namespace cairn {
 /// The rows of a point, with vectors for body_a (opposite ones for body_b):
 ///   normal:   lo = 0, hi = infinity, target = bias + bounce,
 ///   friction: along t1, and along t2 = t1 x normal where the manifold asks for two directions;
-///             bounds +-friction x_normal, target 0.
-/// bounce = -restitution vn where the bodies approach faster than ContactLaw::bounce_speed (vn: the
-/// velocity along the normal before external impulses), else 0.
+///             bounds +-friction x_normal, target 0. Where t1 is where the point slides to, those
+///             of t2 are friction min(1, friction v / slide) x_normal: what slides faster than
+///             friction stops in a step is hardly held across its way, and does not veer.
+/// v: the larger of the speed at which the bodies close and of what external impulses add to that
+/// of one of them. bounce = -restitution vn where the bodies approach faster than
+/// ContactLaw::bounce_speed (vn: the velocity along the normal before external impulses), else 0.
 struct ContactPoint {
   float arm_a[3] = {};   ///< From the centre of mass of body_a to the point [m], world axes.
   float arm_b[3] = {};   ///< Likewise.

@@ -98,14 +98,11 @@ void BlockSteps::Begin(const CycleFrame& frame) {
 void BlockSteps::FindPull() {
   FindLoaded();
   if (!frame_->strained()) return;
-  FindLimited();
   const std::span<const int> island_of_body = frame_->plan().island_of_body();
   strains_.assign(frame_->plan().islands().size(), 0);
   for (size_t i = 0; i < problem_->bodies.size(); ++i) {
     const int island = island_of_body[i];
-    const double strain = problem_->bodies[i].strain;
-    if (island < 0 || (limited_[island] != 0 && strain <= kUnstable)) continue;
-    strains_[island] = std::max(strains_[island], strain);
+    if (island >= 0) strains_[island] = std::max(strains_[island], problem_->bodies[i].strain);
   }
 }
 
@@ -123,28 +120,6 @@ void BlockSteps::FindLoaded() {
   for (const Joint& joint : problem_->joints) look(joint);
   for (const Row& row : problem_->rows) {
     if (row.parent == kNoRow && IsTwoSided(row.lo, row.hi)) look(row);
-  }
-}
-
-void BlockSteps::FindLimited() {
-  const std::span<const int> island_of_body = frame_->plan().island_of_body();
-  limited_.assign(frame_->plan().islands().size(), 0);
-  const auto limit = [&](const auto& between) {
-    for (const int body : {between.body_a, between.body_b}) {
-      if (body != kWorld && island_of_body[body] >= 0) limited_[island_of_body[body]] = 1;
-    }
-  };
-  for (const Joint& joint : problem_->joints) {
-    if (joint.bounded == 0) continue;
-    const JointRow* const rows = &problem_->joint_rows[joint.first_row];
-    for (int i = 0; i < joint.rows; ++i) {
-      if (!IsTwoSided(joint, rows, i)) limit(joint);
-    }
-  }
-  for (const Row& row : problem_->rows) {
-    // a limit that pushes is not told from a contact
-    const bool pushes = row.lo == 0 && row.hi == kInfinity;
-    if (row.parent == kNoRow && !pushes && !IsTwoSided(row.lo, row.hi)) limit(row);
   }
 }
 

@@ -65,8 +65,7 @@ class BlockSteps {
   }
   /// Body::strain from which on nothing but raised inertia keeps the integrator stable.
   static constexpr double kUnstable = 4;
-  /// The largest Body::strain on an island, while steps are weighed; else 0. Where joints have
-  /// limits, only if it is above kUnstable: steps on those throw bodies at times.
+  /// The largest Body::strain on an island, while steps are weighed; else 0.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// Likewise, whether a joint there holds a body and one that is a hundred times lighter.
   bool IsLoaded(int island) const { return !loaded_.empty() && loaded_[island] != 0; }
@@ -114,7 +113,6 @@ class BlockSteps {
   /// Finds strains_ and loaded_.
   void FindPull();
   void FindLoaded();
-  void FindLimited();
   void ReadIslands();
   void CountLines();
   void CountStepLines();
@@ -173,7 +171,6 @@ class BlockSteps {
   };
   Array<LanesOfShape> lanes_of_shapes_;
   Array<int> latest_shape_;    ///< by island: its place in there
-  Array<char> limited_;        ///< by island: some row has a limit; if any body is strained
   Array<double> strains_;      ///< by island, none if no body is strained
   Array<char> loaded_;         ///< by island, none if none is
   Array<std::uint64_t> keys_;  ///< by island

@@ -93,6 +93,7 @@ PackResult PackManifolds(const BlockPacker& packer, int index, const Impulses& s
                            .twists = first.twists,
                            .bounce_speed = law.bounce_speed,
                            .spin_before_torques = law.host.spin_before_torques,
+                           .bounded_apart = law.host.bounded_apart,
                            .lanes = WholeQuads(block.lanes)};
   SeenBodies bodies(packer, index);
   for (int lane = 0; lane < lanes.lanes; ++lane) {

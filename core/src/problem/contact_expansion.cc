@@ -73,6 +73,11 @@ Motion SeenMotion(const ContactProblem& problem, int body) {
   return own ? MotionOf(problem.bodies, body) : ToMotion(problem.motions[body]);
 }
 
+/// What external impulses add to the speed of a body.
+double Pushed(const Motion& motion) {
+  return (View(motion.free.linear) - View(motion.start.linear)).norm();
+}
+
 Vector3d VelocityAt(const Velocity& velocity, const Vector3d& arm) {
   return View(velocity.linear) + View(velocity.angular).cross(arm);
 }
@@ -83,6 +88,7 @@ Vector3d VelocityAt(const Velocity& velocity, const Vector3d& arm) {
 struct ContactExpansion::Point {
   Vector3d direction[3];  ///< normal, t1, t2
   double target[3];
+  double friction[3];    ///< coefficients along them
   Vector3d unseen_spin;  ///< relative, of the bodies less what friction sees
 };
 
@@ -147,6 +153,9 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
   const bool slides = slide.squaredNorm() > kLeastSlide;
   const Vector3d t1 = !given.isZero(0) ? given : slides ? Normalized(slide) : FirstAxis(n);
   const Vector3d t2 = t1.cross(n);
+  const bool less = slides && given.isZero(0) && !law.host.bounded_apart;
+  const double stopped = point.friction * std::max(-n.dot(free), std::max(Pushed(a), Pushed(b)));
+  const double share = less ? std::min(1.0, stopped / slide.norm()) : 1;
 
   // targets are for velocities as the bodies have them
   const Velocity a_slides{a.free.linear,
@@ -158,6 +167,7 @@ ContactExpansion::Point ContactExpansion::Aim(const Manifold& manifold, const Co
                             View(MotionOf(bodies_, manifold.body_b).free.angular);
   return {{n, t1, t2},
           {point.bias + bounce + n.dot(own - free), t1.dot(unseen), t2.dot(unseen)},
+          {0, point.friction, point.friction * share},
           own_spin - (View(a_slides.angular) - View(b_slides.angular))};
 }
 
@@ -191,7 +201,7 @@ void ContactExpansion::Add(const Manifold& manifold, const ContactProblem& probl
     for (int k = 1; k <= manifold.tangents; ++k) {
       frictions.push_back(row(k));
       frictions.back().parent = first + p;
-      frictions.back().friction = point.friction;
+      frictions.back().friction = aimed.friction[k];
       starts.push_back(push.dot(aimed.direction[k]));
     }
     directions_.push_back({aimed.direction[0], aimed.direction[1]});

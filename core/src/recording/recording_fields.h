@@ -134,7 +134,8 @@ template <class Io>
 void Visit(ContactLaw& law, Io& io) {
   io.F32(law.bounce_speed);
   io.Flag(law.host.spin_before_torques);
-  io.Zeros(3);
+  io.Flag(law.host.bounded_apart);
+  io.Zeros(2);
 }
 
 template <class Io>

@@ -337,6 +337,41 @@ TEST(Manifold, KeepsItsPlanWhileItsPointsStay) {
   EXPECT_EQ(frame.plan_number(), 2);
 }
 
+TEST(Manifold, HardlyHoldsAcrossItsWayWhatSlidesFast) {
+  constexpr float kFriction = 0.5f;
+  // the coefficient along t2 of a body that slides along x at this speed
+  const auto across = [](const ManifoldScene& scene) {
+    std::vector<double> start;
+    const test::Scene rows = RowsOf(scene, &start);
+    EXPECT_DOUBLE_EQ(rows.rows[scene.manifolds[0].points].friction, kFriction);
+    return rows.rows[scene.manifolds[0].points + 1].friction;
+  };
+  ManifoldScene scene = test::ManifoldTower(1);
+  View(scene.bodies[0].inv_inertia).setZero();
+  for (ContactPoint& point : scene.points) point.friction = kFriction;
+  const double fall = View(scene.bodies[0].impulse).norm() * scene.bodies[0].inv_mass;
+  ASSERT_GT(fall, 0);
+  const auto sliding = [&](double speed) {
+    scene.bodies[0].velocity.linear = {speed, 0, 0};
+    return across(scene);
+  };
+  EXPECT_NEAR(sliding(5), kFriction * kFriction * fall / 5, 1e-9);
+  EXPECT_NEAR(sliding(-5), kFriction * kFriction * fall / 5, 1e-9);
+  EXPECT_DOUBLE_EQ(sliding(0.9 * kFriction * fall), kFriction) << "friction stops it in this step";
+  EXPECT_DOUBLE_EQ(sliding(0), kFriction);
+
+  // one that lands is held by more than its weight
+  scene.bodies[0].velocity.linear = {5, -3, 0};
+  EXPECT_NEAR(across(scene), kFriction * kFriction * (3 + fall) / 5, 1e-6);
+
+  // directions of the user's own say nothing of where a point slides to
+  for (ContactPoint& point : scene.points) point.tangent[2] = 1;
+  EXPECT_DOUBLE_EQ(sliding(5), kFriction);
+  for (ContactPoint& point : scene.points) point.tangent[2] = 0;
+  scene.law.host.bounded_apart = true;
+  EXPECT_DOUBLE_EQ(sliding(5), kFriction);
+}
+
 TEST(Manifold, TurnsItsStartIntoTheDirectionsOfTheFrame) {
   // a box that slides along x: by hand, the first axis of the plane across y is -x, the second is
   // y x -x = z, t1 = x, t2 = x x y = z
@@ -344,6 +379,7 @@ TEST(Manifold, TurnsItsStartIntoTheDirectionsOfTheFrame) {
   scene.bodies[0].velocity.linear = {1, 0, 0};
   View(scene.bodies[0].inv_inertia).setZero();
   scene.manifolds[0].points = 1;
+  scene.law.host.bounded_apart = true;
   // last frame t1 was the second axis, z, and t2 = z x y = -x
   scene.point_impulses[0] = {.normal = 1, .tangential = {0.25f, 0.125f}, .heading = 2};
   for (const Path path : {Path::kFast, Path::kReference}) {

@@ -282,8 +282,7 @@ TEST(Stiffness, HasStepsTakenWhereItStrainsOrHoldsALoad) {
   EXPECT_LE(steps(0, -kInfinity, kInfinity), 1);
   EXPECT_GT(steps(3, -kInfinity, kInfinity), 10);
   EXPECT_GT(steps(3, -1e6, 1e6), 10) << "as motors";
-  EXPECT_LE(steps(3, -1e6, kInfinity), 1) << "as limits";
-  EXPECT_GT(steps(5, -1e6, kInfinity), 10) << "as limits, where nothing else holds them";
+  EXPECT_GT(steps(3, -1e6, kInfinity), 10) << "as limits";
   EXPECT_GT(steps(0, -kInfinity, kInfinity, 200), 10) << "with a load";
 }
 

@@ -45,7 +45,8 @@ ManifoldScene RandomManifolds(int bodies, int manifolds, std::uint64_t seed) {
   scene.bodies[0].inv_mass = 0;
   View(scene.bodies[0].inv_inertia).setZero();
   scene.bodies[1].linear_factor = {1, 0.5, 0};
-  scene.law = {.bounce_speed = 0.2f, .host = {.spin_before_torques = seed % 2 == 0}};
+  scene.law = {.bounce_speed = 0.2f,
+               .host = {.spin_before_torques = seed % 2 == 0, .bounded_apart = seed % 5 == 0}};
   for (int i = 0; i < bodies && seed % 3 == 0; ++i) {
     ContactMotion& motion = scene.motions.emplace_back();
     for (float* vector :

@@ -41,15 +41,13 @@ struct Options {
   ContactForm contacts = ContactForm::kManifolds;
   /// Friction starts from impulses in the points, if SOLVER_USE_WARMSTARTING is set. Mode::kFast.
   bool warm_start_friction = true;
-  /// The same for joints, from the substep before if this solver made it.
-  bool warm_start_joints = true;
-  /// Whether bodies under tension are stiffened, if Settings::geometric_stiffness is on; kFast.
-  bool geometric_stiffness = true;
+  bool warm_start_joints = true;    ///< Joints do so from the substep before, if it made that.
+  bool geometric_stiffness = true;  ///< As Settings::geometric_stiffness; both must be on. kFast.
   /// Contacts that have lasted for 2 s become gentle: they rest .1 g h^2 deep, m_erp2 counts for
   /// 3/4. Not with m_linearSlop, or a CFM, ERP, stiffness of points; docs/tuning.md. kFast.
   bool resting_slop = true;
-  /// Two directions of friction where the world has one, Bullet's default, by which towers fall.
-  /// Not without steps, nor with SOLVER_ENABLE_FRICTION_DIRECTION_CACHING. Mode::kFast.
+  /// Two directions of friction, of which the second holds less where a point slides; with one,
+  /// towers fall. Not without steps, or with SOLVER_ENABLE_FRICTION_DIRECTION_CACHING. kFast.
   bool two_friction_directions = true;
 };
 

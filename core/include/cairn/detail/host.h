@@ -30,6 +30,9 @@ struct ContactHost {
   /// Friction sees the spin that bodies have before external torques act, as Bullet's does. Off:
   /// the one after.
   bool spin_before_torques = false;
+  /// Friction along t2 has the bounds of t1 also where a point slides, as Bullet's two directions.
+  /// Off: see ContactPoint.
+  bool bounded_apart = false;
 };
 
 }  // namespace cairn::detail
