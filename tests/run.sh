@@ -8,7 +8,7 @@ usage: bash tests/run.sh [--preset NAME | --quick] [CTEST OPTIONS...]
 
   --preset NAME   release (default), dev, asan or tsan
   --quick         a release in build/quick that takes less time to build from nothing (CAIRN_QUICK_BUILD)
-                  and in which warnings are errors; tool and tests are optimised less
+                  and in which warnings are errors; tests are optimised less
   -h, --help      this text
 
 All else goes to ctest:  bash tests/run.sh -R solver --verbose

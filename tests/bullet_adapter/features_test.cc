@@ -327,37 +327,6 @@ TEST(Features, ContactsHaveTwoDirectionsOfFrictionUnlessAskedForOne) {
   EXPECT_EQ(directions({}, {}, one | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING), 1);
 }
 
-/// How far planks that slide to rest end beside their way, as a part of it: the mean of some that
-/// lie turned.
-double Veered(const Settings& settings, const bullet::Options& options) {
-  double beside = 0, ahead = 0;
-  for (int turn = 0; turn < 20; ++turn) {
-    bullet::ConstraintSolver solver(settings, options);
-    World world(&solver);
-    world.AddGround(80);
-    world.solver_info().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
-    const btVector3 half(btScalar(0.3), btScalar(0.1), btScalar(0.8));
-    const auto angle = static_cast<btScalar>(0.05 + 0.15 * turn);
-    btRigidBody* const plank =
-        world.AddBox(half, {.mass = 1,
-                            .pose = btTransform(btQuaternion({0, 1, 0}, angle), {0, half.y(), 0}),
-                            .surface = {.friction = btScalar(turn % 2 == 0 ? 0.2 : 0.4)}});
-    plank->setLinearVelocity({6, 0, 0});
-    for (int i = 0; i < 400; ++i) world.Step();
-    EXPECT_LT(plank->getLinearVelocity().length(), 0.01);
-    const btVector3 end = plank->getWorldTransform().getOrigin();
-    beside += btFabs(end.z());
-    ahead += end.x();
-  }
-  return beside / ahead;
-}
-
-TEST(Features, WhatSlidesGoesStraightAhead) {
-  EXPECT_LT(Veered({}, {}), 0.003);
-  EXPECT_LT(Veered({.path = Path::kReference}, {}), 0.003);
-  EXPECT_GT(Veered({}, {.two_friction_directions = false}), 0.02) << "each for itself";
-}
-
 // A joint with a lever of 1e-28 m on a body that may turn but not move: to answer it would have to
 // turn by 1e40 rad/s, which Bullet's floats do not hold.
 TEST(Features, AJointThatMovesABodyByNothingButRoundingLeavesItAlone) {

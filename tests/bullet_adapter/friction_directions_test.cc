@@ -7,6 +7,9 @@
 
 #include <random>
 
+#include "cairn/bullet/constraint_solver.h"
+#include "scenes/world.h"
+
 namespace cairn::test {
 namespace {
 
@@ -58,6 +61,7 @@ TEST_F(FrictionDirections, FollowTheVelocityUnlessItIsNothing) {
   EXPECT_NEAR(sliding.first.y(), 0, 1e-6);
   EXPECT_NEAR(sliding.first.z(), 0.8, 1e-6);
   EXPECT_FALSE(sliding.as_left);
+  EXPECT_NEAR(sliding.slide, 5, 1e-5);
 
   const auto resting = ChooseDirections(kTwo, {0, 7, 0}, manifold_, &point);
   btVector3 x, y;
@@ -65,6 +69,42 @@ TEST_F(FrictionDirections, FollowTheVelocityUnlessItIsNothing) {
   EXPECT_EQ((resting.first - x).length(), 0);
   EXPECT_EQ((resting.second - y).length(), 0);
   EXPECT_TRUE(resting.as_left);
+  EXPECT_EQ(resting.slide, 0);
+
+  // a skate that glides is held across its way
+  b_.setAnisotropicFriction({btScalar(0.1), 1, 1});
+  EXPECT_EQ(ChooseDirections(kTwo, {3, 7, 4}, manifold_, &point).slide, 0);
+}
+
+/// How far planks that slide to rest end beside their way, as a part of it: the mean of some that
+/// lie turned.
+double Veered(const Settings& settings, const bullet::Options& options) {
+  double beside = 0, ahead = 0;
+  for (int turn = 0; turn < 20; ++turn) {
+    bullet::ConstraintSolver solver(settings, options);
+    bench::World world(&solver);
+    world.AddGround(80);
+    world.solver_info().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+    const btVector3 half(btScalar(0.3), btScalar(0.1), btScalar(0.8));
+    const auto angle = static_cast<btScalar>(0.05 + 0.15 * turn);
+    btRigidBody* const plank =
+        world.AddBox(half, {.mass = 1,
+                            .pose = btTransform(btQuaternion({0, 1, 0}, angle), {0, half.y(), 0}),
+                            .surface = {.friction = btScalar(turn % 2 == 0 ? 0.2 : 0.4)}});
+    plank->setLinearVelocity({6, 0, 0});
+    for (int i = 0; i < 400; ++i) world.Step();
+    EXPECT_LT(plank->getLinearVelocity().length(), 0.01);
+    const btVector3 end = plank->getWorldTransform().getOrigin();
+    beside += btFabs(end.z());
+    ahead += end.x();
+  }
+  return beside / ahead;
+}
+
+TEST(Friction, LetsPlanksSlideStraightAhead) {
+  EXPECT_LT(Veered({}, {}), 0.003);
+  EXPECT_LT(Veered({.path = Path::kReference}, {}), 0.003);
+  EXPECT_GT(Veered({}, {.two_friction_directions = false}), 0.02) << "each for itself";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/scene.h"
+#include "scenes/stacks/square.h"
 
 namespace cairn::bench {
 namespace {
@@ -7,13 +8,6 @@ namespace {
 constexpr btScalar kRadius = btScalar(0.4), kPitch = btScalar(1.2);  // [m]
 constexpr btScalar kMass = 1;                                        // [kg]
 constexpr btScalar kSpeed = 1;                                       // [m/s]
-
-/// Balls along a side of the square that they start in.
-int BallsPerSide(int balls) {
-  int side = 1;
-  while (side * side < balls) ++side;
-  return side;
-}
 
 KnownFacts BallsFacts(int balls) {
   return {.bodies = balls, .top_height_m = kRadius, .mass_kg = double(kMass) * balls};
@@ -26,7 +20,7 @@ class Balls : public Scene {
 
  protected:
   void AddBodies(World* world, int size) override {
-    const int side = BallsPerSide(size);
+    const int side = PlacesPerSide(size);
     const btScalar first = -btScalar(side - 1) / 2 * kPitch;
     world->AddGround(kPitch * btScalar(side) / 2 + 100);
     for (int i = 0; i < size; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scenes/scene.h"
 #include "scenes/stacks/masonry.h"
+#include "scenes/stacks/square.h"
 
 namespace cairn::bench {
 namespace {
@@ -8,13 +9,6 @@ namespace {
 constexpr Brick kBox = {.length = 1, .height = 1, .depth = 1, .mass = 1};
 constexpr int kBoxesPerStack = 5;
 constexpr btScalar kPitch = 3;  // [m]
-
-/// Stacks along a side of the square that they stand in.
-int StacksPerSide(int stacks) {
-  int side = 1;
-  while (side * side < stacks) ++side;
-  return side;
-}
 
 KnownFacts IslandsFacts(int size) {
   return {.bodies = kBoxesPerStack * size,
@@ -28,7 +22,7 @@ class Islands : public Scene {
 
  protected:
   void AddBodies(World* world, int size) override {
-    const int side = StacksPerSide(size);
+    const int side = PlacesPerSide(size);
     const btScalar first = -btScalar(side - 1) / 2 * kPitch;
     world->AddGround(kPitch * btScalar(side) / 2 + 10);
     for (int i = 0; i < size; ++i) {

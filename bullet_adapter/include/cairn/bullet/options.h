@@ -41,7 +41,7 @@ struct Options {
   ContactForm contacts = ContactForm::kManifolds;
   /// Friction starts from impulses in the points, if SOLVER_USE_WARMSTARTING is set. Mode::kFast.
   bool warm_start_friction = true;
-  bool warm_start_joints = true;    ///< Joints do so from the substep before, if it made that.
+  bool warm_start_joints = true;    ///< So do joints, if this solver made the last substep.
   bool geometric_stiffness = true;  ///< As Settings::geometric_stiffness; both must be on. kFast.
   /// Contacts that have lasted for 2 s become gentle: they rest .1 g h^2 deep, m_erp2 counts for
   /// 3/4. Not with m_linearSlop, or a CFM, ERP, stiffness of points; docs/tuning.md. kFast.
