@@ -77,7 +77,9 @@ void BlockCycle::SoftenStart() {
     scales_[i] = kSoftStart;
     any = true;
   }
-  if (any) ScaleIslands(frame_->plan(), scales_, frame_->data());
+  if (!any) return;
+  LeaveForced(frame_->plan(), *frame_->data(), scales_);
+  ScaleIslands(frame_->plan(), scales_, frame_->data());
 }
 
 void BlockCycle::RememberEnds() {

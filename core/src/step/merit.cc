@@ -2,6 +2,7 @@
 #include "step/merit.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -40,6 +41,12 @@ std::uint32_t WithoutZero(const simd::PairBlock& block, const BlockData& data) {
     line += simd::RowLines(block.form, row);
   }
   return without;
+}
+
+/// do_lane(lane) for each that is set in the mask.
+template <class DoLane>
+void ForLanes(std::uint32_t mask, const DoLane& do_lane) {
+  for (; mask != 0; mask &= mask - 1) do_lane(std::countr_zero(mask));
 }
 
 void Multiply(float factor, float* number) { *number = factor == 0 ? 0 : factor * *number; }
@@ -145,11 +152,8 @@ void IslandMerits::FindOfGroup(BlockFrame* frame, const Group& group) {
     merits_[i] = {};
   }
   for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
-    const std::uint32_t without_zero = of_blocks_[b].without_zero;
-    for (int l = 0; l < plan.blocks()[b].lanes && without_zero != 0; ++l) {
-      if ((without_zero >> l & 1) == 0) continue;
-      merits_[plan.island_of(b, l)].may_be_none = false;
-    }
+    ForLanes(of_blocks_[b].without_zero,
+             [&](int lane) { merits_[plan.island_of(b, lane)].may_be_none = false; });
   }
   frame->lane_kernels().find_squares(frame->blocks().bodies.data() + group.first_slot, group.slots,
                                      SquaresOf(group) + size_t{kLanes} * group.blocks);
@@ -202,6 +206,18 @@ void IslandMerits::AddShared(const Plan& plan, const Group& group) {
     merits_[island].square += simd::Rounded(square * scales_[island]);
   });
   for (const int i : islands) merits_[i].square /= scales_[i];
+}
+
+void LeaveForced(const Plan& plan, const BlockData& blocks, std::span<float> factors) {
+  for (const Group& group : plan.groups()) {
+    const auto islands = plan.islands_in(group);
+    const bool any = std::any_of(islands.begin(), islands.end(),
+                                 [&](int island) { return factors[island] != 1; });
+    for (int b = group.first_block; any && b < group.first_block + group.blocks; ++b) {
+      ForLanes(WithoutZero(plan.blocks()[b], blocks),
+               [&](int lane) { factors[plan.island_of(b, lane)] = 1; });
+    }
+  }
 }
 
 void ScaleIslands(const Plan& plan, std::span<const float> factors, BlockData* blocks) {

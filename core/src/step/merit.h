@@ -138,8 +138,12 @@ class IslandMerits {
   Array<OfBlock> of_blocks_;
 };
 
+/// Sets the factors of islands to 1 that have a row which cannot be 0: scaled, it could leave its
+/// bounds, and no sweep brings back a row that its host leaves out of sweeps.
+void LeaveForced(const Plan& plan, const BlockData& blocks, std::span<float> factors);
+
 /// Multiplies impulses and velocity changes of each island by its factor; 0 leaves nothing of what
-/// is not finite.
+/// is not finite. @pre islands with a row that cannot be 0 have factor 1
 void ScaleIslands(const Plan& plan, std::span<const float> factors, BlockData* blocks);
 
 }  // namespace cairn

@@ -218,6 +218,29 @@ TEST(Guards, LeaveAStartAloneThatNobodySweeps) {
   }
 }
 
+// Islands that sweeps leave unfinished begin with a part of their impulses.
+TEST(Start, IsNotSoftenedWhereARowCannotBeNone) {
+  Scene scene = test::HangingChain(6, 10);
+  Row drive = test::PointRow(scene, 3, kWorld, {0, 0, 0}, Eigen::Vector3d::UnitX());
+  drive.lo = 1;
+  drive.hi = 2;
+  drive.host.max_sweeps = 0;
+  scene.rows.push_back(drive);
+  Settings settings;
+  settings.path = Path::kFast;
+  settings.max_sweeps = 2;
+  Solver solver(settings);
+  std::vector<double> x;
+  for (int frame = 0; frame < 3; ++frame) {
+    const Solution s = test::Solve(&solver, scene, x);
+    EXPECT_EQ(s.report.stop, StopReason::kSweepLimit);
+    EXPECT_EQ(s.x.back(), 1);
+    const double measured = Measure(scene.problem(), s.x).residual_energy;
+    EXPECT_NEAR(s.report.residual_energy, measured, 1e-4 * measured) << frame;
+    x = s.x;
+  }
+}
+
 /// Boxes on two pins each, in a row; the pins of a box contradict each other by so much [m/s].
 Scene ContradictoryBridge(int boxes, double contradiction) {
   Scene scene;
