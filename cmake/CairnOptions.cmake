@@ -35,9 +35,6 @@ option(CAIRN_FUZZ "Build the fuzz targets (needs clang)" OFF)
 option(CAIRN_WERROR "Treat warnings as errors" OFF)
 option(CAIRN_TBB "Threads from oneTBB; else from the standard library" ON)
 option(CAIRN_FETCH_DEPENDENCIES "Download Highway where it is not found" OFF)
-# For builds from nothing that are not to be timed. ccache does not keep files compiled so, and an include of others
-# that is missing is not seen.
-option(CAIRN_QUICK_BUILD "Precompile headers of others for libraries and tests, and optimise tests less" OFF)
 set(CAIRN_PAGE AUTO CACHE STRING "Scripts in the page of cairn run --report: AUTO (with npm, if it is found) or OFF")
 set_property(CACHE CAIRN_PAGE PROPERTY STRINGS AUTO OFF)
 set(CAIRN_PLAY AUTO CACHE STRING "The window of cairn play: AUTO (if GLFW, Dear ImGui and OpenGL are found), ON or OFF")

@@ -51,14 +51,17 @@ function(cairn_strict target)
   endif()
 endfunction()
 
-# With CAIRN_QUICK_BUILD, headers of others are compiled once for all targets that use them:
+# With tests, headers of others are compiled once for all targets that use them, which halves the time of a build:
 # cairn_headers(name HEADERS ... [LIBS ...] [DEFINITIONS ...] [OPTIONS ...] [PIC]) and cairn_use_headers(target name).
-# Options become those of the targets. Definitions must be, where headers look at them.
+# Options become those of the targets. Definitions must be, where headers look at them. A library without tests is
+# built without: there an include that is missing is seen. CMAKE_DISABLE_PRECOMPILE_HEADERS leaves them out.
 function(cairn_headers name)
-  if(NOT CAIRN_QUICK_BUILD)
+  if(NOT CAIRN_TESTS)
     return()
   endif()
   cmake_parse_arguments(PARSE_ARGV 1 arg "PIC" "" "HEADERS;LIBS;DEFINITIONS;OPTIONS")
+  # so that ccache, with CCACHE_SLOPPINESS=pch_defines,time_macros, keeps what is compiled with them
+  list(APPEND arg_OPTIONS $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
   file(CONFIGURE OUTPUT ${source} CONTENT "// nothing but headers\n")
   add_library(${name} OBJECT ${source})
@@ -72,7 +75,7 @@ function(cairn_headers name)
 endfunction()
 
 function(cairn_use_headers target name)
-  if(CAIRN_QUICK_BUILD)
+  if(TARGET ${name})
     get_property(options TARGET ${name} PROPERTY CAIRN_OPTIONS)
     target_compile_options(${target} PRIVATE ${options})
     target_precompile_headers(${target} REUSE_FROM ${name})
