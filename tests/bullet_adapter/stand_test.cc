@@ -46,6 +46,19 @@ TEST(Stand, TowerStandsForTenSecondsAndSagsTenTimesLessThanWithBullet) {
   EXPECT_GT(theirs.height_lost_m, 10 * ours.height_lost_m);
 }
 
+// Rounds were of five sweeps, so that no step followed with fewer than eight iterations.
+TEST(Stand, TowersStandWithFewIterations) {
+  for (const int iterations : {2, 3, 4, 5}) {
+    bullet::ConstraintSolver cairn;
+    SceneWorld world("tower", &cairn, {.size = 10, .friction_directions = 1});
+    world.world().solver_info().m_numIterations = iterations;
+    world.Step(kTenSeconds);
+    const bench::SceneFacts facts = world.Measure();
+    EXPECT_EQ(facts.verdict, bench::SceneFacts::Verdict::kStanding) << iterations;
+    EXPECT_LT(facts.height_lost_m, 0.02) << iterations;
+  }
+}
+
 // 100 kg on boxes of 1 kg: whether they stand for ten seconds is a matter of luck with ten sweeps
 // and a step, of 480 towers all but 19 did. More than 4 of 20 would be one in 600.
 TEST(Stand, HeavyTopNearlyAlwaysStandsForTenSeconds) {

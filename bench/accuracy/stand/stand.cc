@@ -137,8 +137,8 @@ void PrintStand(const std::vector<StandResult>& results, const StandOptions& opt
       "end [m/s], energy the most above the start [%].\n\n",
       options.seeds, options.first, options.seconds);
   cli::TextTable table =
-      cli::TableOf({"solver", "fell", "first fall", "lost: median", "worst", "sway: median",
-                    "worst", "worst gap", "worst speed", "most energy"});
+      cli::TableOf({"solver", "iterations", "fell", "first fall", "lost: median", "worst",
+                    "sway: median", "worst", "worst gap", "worst speed", "most energy"});
   for (const StandResult& result : results) {
     const Summary sum = SumUp(result.runs);
     const auto of_seed = [](const StandRun* run, const auto& what) {
@@ -148,7 +148,8 @@ void PrintStand(const std::vector<StandResult>& results, const StandOptions& opt
       return values.empty() ? std::numeric_limits<double>::quiet_NaN() : std::ranges::max(values);
     };
     table.rows.push_back(
-        {result.solver.name, fmt::format("{} of {}", sum.falls, result.runs.size()),
+        {result.solver.name, fmt::format("{}", result.solver.iterations),
+         fmt::format("{} of {}", sum.falls, result.runs.size()),
          of_seed(sum.first_fall,
                  [](const StandRun& run) { return fmt::format("{} s", *run.fell); }),
          sum.lost.empty() ? "-" : Millimetres(cli::Median(sum.lost)),
@@ -179,7 +180,9 @@ nlohmann::ordered_json ToJson(const std::vector<StandResult>& results,
       if (run.fell) one["fell_s"] = *run.fell;
       runs.push_back(std::move(one));
     }
-    json["solvers"].push_back({{"name", result.solver.name}, {"runs", std::move(runs)}});
+    json["solvers"].push_back({{"name", result.solver.name},
+                               {"iterations", result.solver.iterations},
+                               {"runs", std::move(runs)}});
   }
   return json;
 }

@@ -19,13 +19,17 @@ struct StandChoice {
   std::string scene = "heavy-top", solvers = "cairn";
   StandOptions options;
   int directions = 2;
+  int iterations = 0;  ///< 0: those of each solver
 };
 
 int RunStandCommand(const Common& common, const StandChoice& choice, const std::string& typed) {
   StandOptions options = choice.options;
   options.scene = cli::ParseScene(choice.scene);
   options.scene.friction_directions = choice.directions;
-  const std::vector<TensionSolver> solvers = ParseTensionSolvers(choice.solvers);
+  std::vector<TensionSolver> solvers = ParseTensionSolvers(choice.solvers);
+  for (TensionSolver& solver : solvers) {
+    if (choice.iterations > 0) solver.iterations = choice.iterations;
+  }
   if (!common.json.empty()) cli::CheckWritable(common.json);
   const cli::RunContext context = cli::DescribeContext(typed);
   std::vector<StandResult> results;
@@ -73,6 +77,10 @@ cli::Command AddStandCommand(CLI::App* app) {
                    "Of friction at a contact: 1, as Bullet comes, or 2")
       ->check(CLI::Range(1, 2))
       ->capture_default_str();
+  stand
+      ->add_option("--iterations", choice->iterations,
+                   "m_numIterations, of all solvers; without: their own, mostly 10")
+      ->check(CLI::Range(1, 10000));
   cli::AddText(stand, "--json", &common->json, "Write all figures to this file", "FILE");
   cli::AddText(stand, "--progress", &common->words.progress,
                "Progress on stderr: auto (if a terminal), always, never", "WHEN");

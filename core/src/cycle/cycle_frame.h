@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+
 #include "cairn/contact_problem.h"
 #include "cairn/settings.h"
 #include "pack/block_frame.h"
 #include "runtime/budget.h"
 #include "runtime/crew.h"
 #include "step/island_memories.h"
+#include "step/step_settings.h"
 
 namespace cairn {
 
@@ -32,6 +35,14 @@ struct CycleFrame {
   /// Steps are weighed against the sweeps in their place, see StepPolicy::kWeighed.
   bool weighs_steps() const {
     return asks_for_steps() && !meter->limited() && settings.step_policy == StepPolicy::kWeighed;
+  }
+  /// Sweeps of a round. Where steps are weighed, and max_sweeps are less than two rounds of k_gs,
+  /// it is as many fewer as leaves a step the sweeps that smooth it: 2 of 4, 2 of 5, 3 of 6, 4
+  /// of 7.
+  int round() const {
+    const int most = settings.max_sweeps;
+    if (!weighs_steps()) return settings.k_gs;
+    return std::clamp(std::max(most / 2, most - kLeastSweepsAfterStep), 1, settings.k_gs);
   }
   /// What steps and sweeps gain is learnt.
   bool learns() const { return watches_gains() || weighs_steps(); }

@@ -252,7 +252,13 @@ class StandTest(AccuracyTest):
             for run in solver["runs"]:
                 self.assertNotIn("fell_s", run)
                 self.assertLess(abs(run["height_lost_m"]), 0.1)
+            self.assertEqual(solver["iterations"], 10)
         self.assertIn("0 of 3", text)
+
+    def test_iterations_are_those_of_all_solvers(self):
+        _, written = self.run_json("stand", "--scene", "tower:3", "--seeds", "1", "--seconds", "1",
+                                   "--solvers", "cairn,bullet-10", "--iterations", "4")
+        self.assertEqual([solver["iterations"] for solver in written["solvers"]], [4, 4])
 
     def test_bad_input_is_refused_with_a_reason(self):
         self.assertIn("'tower'", self.refused(USAGE, "stand", "--scene", "towr"))
