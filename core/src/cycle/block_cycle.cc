@@ -154,7 +154,8 @@ void BlockCycle::Round() {
   const int before = islands_.SweepsMade();
   const bool more = frame_->weighs_steps() && before >= settings.max_sweeps;
   const int end =
-      before + (more ? frame_->round() : std::min(frame_->round(), settings.max_sweeps - before));
+      before + (more ? frame_->sweeps_of_round()
+                     : std::min(frame_->sweeps_of_round(), settings.max_sweeps - before));
   for (bool whole = true; whole && islands_.active() && islands_.SweepsMade() < end;) {
     const int unseen = UnseenAfter(islands_.SweepsMade());
     whole = Sweep(std::min(end - islands_.SweepsMade(), unseen));

@@ -36,10 +36,9 @@ struct CycleFrame {
   bool weighs_steps() const {
     return asks_for_steps() && !meter->limited() && settings.step_policy == StepPolicy::kWeighed;
   }
-  /// Sweeps of a round. Where steps are weighed, and max_sweeps are less than two rounds of k_gs,
-  /// it is as many fewer as leaves a step the sweeps that smooth it: 2 of 4, 2 of 5, 3 of 6, 4
-  /// of 7.
-  int round() const {
+  /// Settings::k_gs. Where steps are weighed, as many fewer as leave a step of few sweeps those
+  /// that smooth it: with 5, 2 of 4, 2 of 5, 3 of 6, 4 of 7.
+  int sweeps_of_round() const {
     const int most = settings.max_sweeps;
     if (!weighs_steps()) return settings.k_gs;
     return std::clamp(std::max(most / 2, most - kLeastSweepsAfterStep), 1, settings.k_gs);

@@ -51,7 +51,8 @@ std::span<const int> StepPlanner::PlanRound() {
   planned_.clear();
   const Settings& settings = frame_->settings;
   const int left = settings.max_sweeps - islands_->SweepsMade();
-  if (!steps_->asked() || left < std::min(frame_->round(), kLeastSweepsAfterStep)) return planned_;
+  if (!steps_->asked() || left < std::min(frame_->sweeps_of_round(), kLeastSweepsAfterStep))
+    return planned_;
   Planned planned;
   for (int g = 0; g < static_cast<int>(islands_->groups().size()); ++g) {
     const size_t first = planned_.size();
@@ -111,8 +112,9 @@ NoStep StepPlanner::PlanStep(int g, std::span<const int> islands, Planned* plann
   const Settings& settings = frame_->settings;
   const Group& group = frame_->plan().groups()[g];
   const int left = settings.max_sweeps - islands_->SweepsMade();
-  const double sweeps = (frame_->watches_gains() ? 1.0 : 2.0) * std::min(frame_->round(), left) +
-                        2 * BlockSweeps::kMeasureSweeps;
+  const double sweeps =
+      (frame_->watches_gains() ? 1.0 : 2.0) * std::min(frame_->sweeps_of_round(), left) +
+      2 * BlockSweeps::kMeasureSweeps;
   const double rows = static_cast<double>(group.rows);
   // what a sweep costs does not depend on how full the lanes are, so that an island does not see
   // who shares them
@@ -210,7 +212,7 @@ bool StepPlanner::Pays(int g, std::span<const int> islands, double planned, doub
   const double all_rows = islands_->ActiveRows();
   const double shares = all_rows / static_cast<double>(frame_->plan().groups()[g].rows);
   const double sweep = all_rows * (1 + (frame_->accelerates() ? Nncg::kSweeps : 0));
-  const double smoothing = frame_->round() + 2 * BlockSweeps::kMeasureSweeps;
+  const double smoothing = frame_->sweeps_of_round() + 2 * BlockSweeps::kMeasureSweeps;
   const double prices = StepOdds::PricesLeft(cut / power);
   if (meter.Fits(prices * shares * price, (prices * smoothing - sweeps) * sweep)) return true;
   // where sweeps have another limit than the budget, a step takes nothing from them
@@ -219,7 +221,7 @@ bool StepPlanner::Pays(int g, std::span<const int> islands, double planned, doub
 }
 
 int StepPlanner::SweepsInPlace(int island) const {
-  const int most = frame_->settings.max_sweeps, round = frame_->round();
+  const int most = frame_->settings.max_sweeps, round = frame_->sweeps_of_round();
   if (!frame_->weighs_steps()) return most;
   // in whole rounds
   return most + (steps_->SweepsOfEffort(island, most) - most) / round * round;
