@@ -2,8 +2,10 @@
 """Shared libraries show their public interface and nothing else, have their version in their name, stay when they are
 closed, do nothing when they are loaded, keep no global but those of a list, and still have the names that
 cmake/exports/*.abi has:
-exports.py BUILD [--write], of a build with -DBUILD_SHARED_LIBS=ON -DCAIRN_TESTS=OFF. --write keeps the names of this
-build there (abigail-tools); without debug information these are names, not the layout of structs."""
+exports.py BUILD [--users BUILD] [--write], of a build with -DBUILD_SHARED_LIBS=ON -DCAIRN_TESTS=OFF. --users names a
+build of static libraries and of the tools: what its tools take from a library, the shared one must show. --write keeps
+the names of this build there (abigail-tools); without debug information these are names, not the layout of structs."""
+import argparse
 import glob
 import os
 import re
@@ -102,13 +104,47 @@ def removed(path):
     return said.stdout.splitlines() if said.returncode != 0 else []
 
 
+def symbols(option, paths):
+    """Mangled names of object files, archives or shared libraries, without their versions."""
+    return {line.split()[0].split("@")[0] for line in run("nm", "-P", option, *paths).splitlines() if " " in line}
+
+
+def hidden_from_tools(paths, users, build):
+    """What the tools of another build take from its static libraries, and these shared ones do not show. Benchmarks of
+    single functions (bench/micro) are not built with shared libraries."""
+    objects = [path for path in glob.glob(os.path.join(users, "bench", "**", "*.o"), recursive=True)
+               if f"{os.sep}micro{os.sep}" not in path]
+    if not objects:
+        return [f"{users}: has no object files of tools"]
+    taken = symbols("-u", objects)
+    errors = []
+    for path in paths:
+        library = os.path.basename(path).split(".")[0]
+        beside = os.path.join(users, os.path.relpath(os.path.dirname(path), build), library)
+        if os.path.exists(beside + ".so"):
+            continue  # Shared in every build, so tools were linked with it.
+        if not os.path.exists(beside + ".a"):
+            errors.append(f"{beside}.a: is not there")
+            continue
+        hidden = (taken & symbols("--defined-only", [beside + ".a"])) - symbols("-D", [path])
+        errors += [f"{library}: does not show {name}, which tools take" for name in sorted(hidden)]
+    return errors
+
+
 def main():
-    if "--write" in sys.argv:
-        for path in glob.glob(os.path.join(sys.argv[1], "**", "libcairn*.so"), recursive=True):
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("build")
+    parser.add_argument("--users")
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    paths = sorted(glob.glob(os.path.join(asked.build, "**", "libcairn*.so"), recursive=True))
+    if asked.write:
+        for path in paths:
             write(path)
-    paths = [path for path in glob.glob(os.path.join(sys.argv[1], "**", "libcairn*.so"), recursive=True)]
-    results = {os.path.basename(path): check(path) for path in sorted(paths)}
+    results = {os.path.basename(path): check(path) for path in paths}
     errors = [error for _, errors in results.values() for error in errors]
+    if asked.users:
+        errors += hidden_from_tools(paths, asked.users, asked.build)
     for error in errors:
         print(error)
     for described, _ in results.values():
