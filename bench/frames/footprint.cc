@@ -2,6 +2,10 @@
 #include <cairn/bullet/constraint_solver.h>
 #include <fmt/format.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -28,31 +32,69 @@ using bench::Substep;
 
 constexpr std::uint64_t kLine = 64, kPage = 4096;
 
-/// Solves the substeps of a world that it also drives, and steps the last of them singly.
-StepCounts CountsOf(const SceneChoice& choice, const WindowOptions& options,
-                    btConstraintSolver* solver) {
+using Make = std::function<std::unique_ptr<btConstraintSolver>()>;
+
+/// Solves the substeps of a world that it also drives, up to the one looked at: around(last, solve)
+/// calls solve().
+template <class Around>
+void SolveSubsteps(const SceneChoice& choice, const WindowOptions& options,
+                   btConstraintSolver* solver, const Around& around) {
+  btContactSolverInfo its_info;  // stays where it is: Cairn knows a world again by it
+  bench::JointImpulses joints;
+  btSequentialImpulseConstraintSolver driver;
+  cli::SceneRun run(choice, &driver);
+  const int last = choice.FirstFrame(options.frame);
+  // some frames before, in which the solver learns what it would know
+  constexpr int kLearning = 20;
+  run.Skip(std::max(0, last - kLearning));
+  while (run.frame() <= last) {
+    const bool is_last = run.frame() == last;
+    run.StepAfter([&](Substep* substep, const btContactSolverInfo& info) {
+      its_info = info;
+      substep->Restore();
+      joints.Put(*substep);
+      around(is_last, [&] { substep->SolveWith(solver, its_info, nullptr); });
+      joints.Keep(*substep);
+    });
+  }
+}
+
+/// Steps the last substep singly.
+StepCounts CountsOf(const SceneChoice& choice, const WindowOptions& options, const Make& make) {
   return CountSteps([&](const Marks& marks) {
-    btContactSolverInfo its_info;  // stays where it is: Cairn knows a world again by it
-    bench::JointImpulses joints;
-    btSequentialImpulseConstraintSolver driver;
-    cli::SceneRun run(choice, &driver);
-    const int last = choice.FirstFrame(options.frame);
-    // some frames before, in which the solver learns what it would know
-    constexpr int kLearning = 20;
-    run.Skip(std::max(0, last - kLearning));
-    while (run.frame() <= last) {
-      const bool count = run.frame() == last;
-      run.StepAfter([&](Substep* substep, const btContactSolverInfo& info) {
-        its_info = info;
-        substep->Restore();
-        joints.Put(*substep);
-        if (count) marks.Begin();
-        substep->SolveWith(solver, its_info, nullptr);
-        if (count) marks.End();
-        joints.Keep(*substep);
-      });
-    }
+    SolveSubsteps(choice, options, make().get(), [&](bool last, const auto& solve) {
+      if (last) marks.Begin();
+      solve();
+      if (last) marks.End();
+    });
   });
+}
+
+/// Bytes of the heap that are in use.
+std::int64_t HeapInUse() {
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+  const auto heap = mallinfo2();
+  return static_cast<std::int64_t>(heap.uordblks + heap.hblkhd);
+#else
+  return 0;
+#endif
+}
+
+/// Bytes that a solver holds after these substeps; 0 where nobody can tell. What the process keeps
+/// from the first solver on is not counted.
+std::int64_t MemoryOf(const SceneChoice& choice, const WindowOptions& options, const Make& make) {
+  std::int64_t held = 0;
+  for (int turn = 0; turn < 2; ++turn) {
+    held = -HeapInUse();
+    const std::unique_ptr<btConstraintSolver> solver = make();
+    held += HeapInUse();
+    SolveSubsteps(choice, options, solver.get(), [&](bool, const auto& solve) {
+      held -= HeapInUse();
+      solve();
+      held += HeapInUse();
+    });
+  }
+  return held;
 }
 
 struct Footprint {
@@ -123,37 +165,40 @@ void PrintFunctions(const StepCounts& counts, int most) {
 }  // namespace
 
 void PrintFootprints(const WindowOptions& options, int functions, const std::string& command) {
-  fmt::print("{}", cli::Origin("Footprint: the code that a substep runs through",
-                               cli::DescribeContext(command)));
+  fmt::print(
+      "{}",
+      cli::Origin("Footprint: the code that a substep runs through, and the memory of a solver",
+                  cli::DescribeContext(command)));
   fmt::print(
       "- the substep of one frame, from prepareSolve() to the end of allSolved(), stepped one "
       "instruction at a time;\n  solvers beside the one that drives the world, which have solved "
       "the substeps before\n"
       "- lines of 64 bytes and pages of 4 KiB that hold the first byte of an instruction that "
-      "ran\n\n");
-  const std::vector<std::pair<const char*, std::function<std::unique_ptr<btConstraintSolver>()>>>
-      solvers = {
-          {"bullet", [] { return std::make_unique<btSequentialImpulseConstraintSolver>(); }},
-          {"cairn-pgs",
-           [] {
-             Settings settings;
-             settings.k_sm = 0;
-             return std::make_unique<bullet::ConstraintSolver>(settings);
-           }},
-          {"cairn", [] { return std::make_unique<bullet::ConstraintSolver>(); }},
-      };
-  cli::TextTable table =
-      cli::TableOf({"world", "solver", "instructions", "distinct", "lines", "KiB", "pages"});
+      "ran\n- KiB held: memory of the solver after that substep and up to twenty before it; \"-\" "
+      "where the C library does not tell\n\n");
+  const std::vector<std::pair<const char*, Make>> solvers = {
+      {"bullet", [] { return std::make_unique<btSequentialImpulseConstraintSolver>(); }},
+      {"cairn-pgs",
+       [] {
+         Settings settings;
+         settings.k_sm = 0;
+         return std::make_unique<bullet::ConstraintSolver>(settings);
+       }},
+      {"cairn", [] { return std::make_unique<bullet::ConstraintSolver>(); }},
+  };
+  cli::TextTable table = cli::TableOf(
+      {"world", "solver", "instructions", "distinct", "lines", "KiB", "pages", "KiB held"});
   for (const SceneChoice& scene : options.scenes) {
     for (const auto& [name, make] : solvers) {
-      const std::unique_ptr<btConstraintSolver> solver = make();
-      const StepCounts counts = CountsOf(scene, options, solver.get());
+      const StepCounts counts = CountsOf(scene, options, make);
       const Footprint footprint = FootprintOf(counts);
-      table.rows.push_back({NameOf(scene), name, fmt::format("{}", footprint.instructions),
-                            fmt::format("{}", counts.size()),
-                            fmt::format("{}", footprint.lines.size()),
-                            fmt::format("{:.0f}", static_cast<double>(footprint.lines.size()) / 16),
-                            fmt::format("{}", footprint.pages)});
+      const std::int64_t held = MemoryOf(scene, options, make);
+      table.rows.push_back(
+          {NameOf(scene), name, fmt::format("{}", footprint.instructions),
+           fmt::format("{}", counts.size()), fmt::format("{}", footprint.lines.size()),
+           fmt::format("{:.0f}", static_cast<double>(footprint.lines.size()) / 16),
+           fmt::format("{}", footprint.pages),
+           held > 0 ? fmt::format("{:.1f}", static_cast<double>(held) / 1024) : "-"});
       if (functions > 0) {
         fmt::print("{}, {}: ", NameOf(scene), name);
         PrintFunctions(counts, functions);

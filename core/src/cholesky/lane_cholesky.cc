@@ -169,7 +169,7 @@ bool LaneCholesky<T>::Analyse(int nodes, std::span<const NodePair> pairs) {
     order.Remove(found);
     AddRound(round, order);
   }
-  columns_.resize(lanes_.size());
+  columns_.resize(static_cast<size_t>(columns_end()));
   values_.resize(static_cast<size_t>(order.blocks()) * kNodeSquare);
   floors_.resize(static_cast<size_t>(nodes) * kNodeRows);
   SetZero();
@@ -180,8 +180,10 @@ template <class T>
 void LaneCholesky<T>::AddRound(std::span<const int> round, const LaneOrder& order) {
   for (size_t begin = 0; begin < round.size(); begin += kLanes) {
     const auto nodes = round.subspan(begin, std::min<size_t>(kLanes, round.size() - begin));
+    const std::int32_t columns = columns_end();
     simd::NodeLanes& lanes = lanes_.emplace_back();
     lanes.lanes = static_cast<int>(nodes.size());
+    lanes.columns = columns;
     for (int l = 0; l < lanes.lanes; ++l) {
       const int node = nodes[l];
       lanes.node[l] = node;
@@ -233,19 +235,19 @@ bool LaneCholesky<T>::Factorise() {
       floors_[kNodeRows * node + k] = entry > 0 ? std::numeric_limits<T>::epsilon() * entry : 0;
     }
   }
-  for (size_t i = 0; i < lanes_.size(); ++i) {
-    if (!kernels_.eliminate(lanes_[i], floors_.data(), values_.data(), &columns_[i])) return false;
+  for (const simd::NodeLanes& lanes : lanes_) {
+    if (!kernels_.eliminate(lanes, floors_.data(), values_.data(), columns_.data())) return false;
   }
   return true;
 }
 
 template <class T>
 void LaneCholesky<T>::Solve(std::span<T> x) {
-  for (size_t i = 0; i < lanes_.size(); ++i) {
-    kernels_.solve_down(lanes_[i], &columns_[i], x.data());
+  for (const simd::NodeLanes& lanes : lanes_) {
+    kernels_.solve_down(lanes, columns_.data(), x.data());
   }
   for (size_t i = lanes_.size(); i-- > 0;) {
-    kernels_.solve_up(lanes_[i], columns_[i], x.data());
+    kernels_.solve_up(lanes_[i], columns_.data(), x.data());
   }
 }
 

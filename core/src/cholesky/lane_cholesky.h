@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -56,13 +57,13 @@ class LaneCholesky {
  private:
   void AddRound(std::span<const int> round, const LaneOrder& order);
   void Count(const simd::NodeLanes& lanes);
+  std::int32_t columns_end() const { return lanes_.empty() ? 0 : lanes_.back().columns_end(); }
 
   const simd::NodeKernels<T>& kernels_;
   int nodes_ = 0;
   double flops_ = 0, nonzeros_ = 0;
   Array<simd::NodeLanes> lanes_;  ///< in the order of elimination
-  std::vector<simd::NodeColumns<T>, LineAllocator<simd::NodeColumns<T>>> columns_;
-  std::vector<T, LineAllocator<T>> values_, floors_;
+  std::vector<T, LineAllocator<T>> columns_, values_, floors_;
 };
 
 extern template class LaneCholesky<float>;

@@ -293,6 +293,7 @@ bool StagedWork::GoOn(int) { return true; }
 
 struct Crew::Impl : detail::Placed {
   ~Impl() {
+    if (board == nullptr) return;
     board->Close();
     board->Release();
   }
@@ -302,14 +303,16 @@ struct Crew::Impl : detail::Placed {
   Executor* given;
   std::unique_ptr<Executor> own;  ///< made when helpers are called first: small problems need none
   Memory* const memory = detail::MemoryOfThread();
-  Board* board = new Board;
+  Board* board = nullptr;  ///< of the caller alone there is none: it takes nine kilobytes
 };
 
 Crew::Crew(int threads, Executor* executor)
     : impl_(std::make_unique<Impl>()), alone_(threads == 1) {
   impl_->asked = impl_->threads = threads;
   impl_->given = executor;
-  if (threads == 1 || executor != nullptr) return;
+  if (threads == 1) return;
+  impl_->board = new Board;
+  if (executor != nullptr) return;
   impl_->threads = std::min(threads, MostOwnThreads());
 }
 Crew::~Crew() = default;
@@ -325,7 +328,7 @@ void Crew::Follow(int threads, Executor* executor) {
 
 void Crew::RecordTo(SpanRecorder* recorder) {
   recorder_ = recorder;
-  impl_->board->RecordTo(recorder);
+  if (impl_->board != nullptr) impl_->board->RecordTo(recorder);
 }
 
 void Crew::Call(int most) {
@@ -352,8 +355,10 @@ void Crew::Call(int most) {
   }
 }
 
-void Crew::Dismiss() { impl_->board->Close(); }
-bool Crew::called() const { return impl_->board->open(); }
+void Crew::Dismiss() {
+  if (impl_->board != nullptr) impl_->board->Close();
+}
+bool Crew::called() const { return impl_->board != nullptr && impl_->board->open(); }
 int Crew::threads() const { return called() ? impl_->board->most_helpers() + 1 : 1; }
 
 namespace {
@@ -392,6 +397,7 @@ void Crew::Run(StagedWork* work) {
 }
 
 void Crew::RunWithThoseHere(StagedWork* work) {
+  if (alone_) return RunAlone(work);
   for (int stage = 0; stage < work->stages() && work->GoOn(stage); ++stage) {
     impl_->board->DoStage(work, stage);
   }

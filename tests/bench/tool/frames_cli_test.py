@@ -100,19 +100,20 @@ class FootprintTest(unittest.TestCase):
         self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
         lines = result.stdout.splitlines()
         rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("|")]
-        self.assertEqual(rows[0], ["world", "solver", "instructions", "distinct", "lines", "KiB", "pages"])
+        self.assertEqual(rows[0], ["world", "solver", "instructions", "distinct", "lines", "KiB", "pages", "KiB held"])
         self.assertEqual([row[0] for row in rows[2:]], ["incline"] * 3)
-        return {row[1]: [int(cell) for cell in row[2:]] for row in rows[2:]}, lines
+        return {row[1]: [float(cell) for cell in row[2:] if cell != "-"] for row in rows[2:]}, lines
 
     def test_counts_what_each_solver_runs_through(self):
         rows, _ = self.table()
         self.assertEqual(list(rows), ["bullet", "cairn-pgs", "cairn"])
-        for solver, (ran, distinct, lines, kib, pages) in rows.items():
+        for solver, (ran, distinct, lines, kib, pages, *held) in rows.items():
             self.assertGreater(ran, distinct, solver)
             self.assertTrue(lines < distinct < lines * 64, solver)
             self.assertAlmostEqual(kib, lines / 16, delta=.5, msg=solver)
             self.assertTrue(lines / 64 <= pages < lines, solver)
             self.assertGreater(distinct, 1000, solver)
+            self.assertTrue(all(1 <= kib < 64 for kib in held), (solver, held))  # of one box on a slope
 
     def test_the_functions_of_all_are_the_whole(self):
         rows, lines = self.table("--functions", "10000")

@@ -182,6 +182,25 @@ TEST(OwnMemory, IsCountedWithoutOneAsWell) {
 }
 
 // Each block says whose it is, or the program ends.
+// One thread needs no place where others would look for work: that was 9 KB for each of three
+// crews.
+TEST(OwnMemory, IsLittleWhereLittleIsSolved) {
+  Settings several = kSettings;
+  several.threads = 2;
+  Solver solver(kSettings), with_helpers(several);
+  EXPECT_LT(solver.bytes(), 8192u);
+  const ManifoldScene scene = test::ManifoldTower(1);
+  for (Solver* each : {&solver, &with_helpers}) {
+    ManifoldScene frame = scene;
+    std::vector<Velocity> velocities(frame.bodies.size());
+    Report report;
+    each->Solve(frame.problem(), frame.impulses(), velocities, &report);
+    ASSERT_TRUE(report.ok()) << Describe(report);
+  }
+  EXPECT_LT(solver.bytes(), 49152u);  // a box on four points, and a step
+  EXPECT_GT(with_helpers.bytes(), solver.bytes() + 8192);
+}
+
 TEST(OwnMemory, OfTwoSolversIsKeptApartOnAnyThread) {
   Life expected_life;
   Solver expected(kSettings);
