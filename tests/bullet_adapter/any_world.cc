@@ -62,12 +62,15 @@ void AnyWorld::AddChain(int length, btScalar x, btScalar z) {
     btRigidBody* const box = AddBox({btScalar(0.1), btScalar(0.2), btScalar(0.1)}, 1,
                                     At(x, 9 - btScalar(0.6) * btScalar(i), z));
     box->setLinearVelocity({btScalar(0.5), 0, 0});
-    joints_.push_back(above == nullptr
-                          ? std::make_unique<btPoint2PointConstraint>(*box, up)
-                          : std::make_unique<btPoint2PointConstraint>(*above, *box, -up, up));
-    world_->addConstraint(joints_.back().get());
+    AddJoint(above == nullptr ? std::make_unique<btPoint2PointConstraint>(*box, up)
+                              : std::make_unique<btPoint2PointConstraint>(*above, *box, -up, up));
     above = box;
   }
+}
+
+void AnyWorld::AddJoint(std::unique_ptr<btTypedConstraint> joint, bool collide) {
+  world_->addConstraint(joint.get(), !collide);
+  joints_.push_back(std::move(joint));
 }
 
 void AnyWorld::Step(int frames) {

@@ -34,6 +34,9 @@ class AnyWorld {
   /// Boxes on pins below each other, the first one hung from the world.
   void AddChain(int length, btScalar x, btScalar z);
 
+  /// Adds it, and keeps it. @param collide  whether its bodies do
+  void AddJoint(std::unique_ptr<btTypedConstraint> joint, bool collide = true);
+
   void Step(int frames);
 
   btDynamicsWorld& bullet() { return *world_; }

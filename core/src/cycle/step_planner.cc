@@ -29,9 +29,10 @@ constexpr double kMoreOnceStepped = 1.5;
 constexpr double kStrained = 1;
 /// Within so many tolerances sweeps do the rest.
 constexpr double kNear = 10;
-/// Error of joints that a step meets at most where there was none in the last frame [m/s] or
-/// [rad/s]. Contacts part by centimetres at most, and what flings bodies is undone: towers that
-/// rock would never get a step again.
+/// Error of joints that a step meets at most where there was none in the last frame [m/s]. What
+/// only turns is not thrown, and a gear or motor that sweeps leave behind would never get a step.
+/// Contacts part by centimetres at most, and what flings bodies is undone: towers that rock would
+/// never get a step again.
 constexpr double kMostThrown = 1;
 /// The same where it is strained: what waits longer parts further.
 constexpr double kMostThrownStrained = 3;
@@ -142,13 +143,14 @@ NoStep StepPlanner::PlanStep(int g, std::span<const int> islands, Planned* plann
 NoStep StepPlanner::Weigh(int g, int i) {
   const StepOdds& odds = steps_->odds(i);
   const bool joints = steps_->HasJoints(i);
-  const double largest = Largest((*islands_)[i].seen, UnitOf(frame_->settings));
-  const bool near = largest <= kNear * frame_->settings.tolerance;
+  const Residual& seen = (*islands_)[i].seen;
+  const double unit = UnitOf(frame_->settings);
+  const bool near = IsWithin(seen, kNear * frame_->settings.tolerance, unit);
   // what sweeps have left joints open by for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
   const bool strained = steps_->strain(i) > kStrained || steps_->IsLoaded(i);
   const bool thrown = joints && !odds.stepped_most(bodies) &&
-                      largest > (strained ? kMostThrownStrained : kMostThrown);
+                      seen.max > unit * (strained ? kMostThrownStrained : kMostThrown);
   // raised inertia needs a tension that is right in each frame, and sweeps lose it within few
   const bool needed = steps_->strain(i) > BlockSteps::kUnstable;
   const bool pays = needed || odds.pays() || odds.wants_trial();
@@ -238,7 +240,8 @@ void StepPlanner::Learn() {
     if (island.first_body < 0) continue;
     StepOdds& odds = steps_->odds(i);
     odds.EndFrame(islands_->StepsTaken(i) > 0 ? island.bodies : 0,
-                  Largest((*islands_)[i].seen, UnitOf(frame_->settings)));
+                  Largest((*islands_)[i].seen, UnitOf(frame_->settings)),
+                  frame_->problem.time_step);
     if (!frame_->watches_gains()) continue;
     const int least = run.begin == 0 ? kLeastRun : kLeastRunAfterStep;
     const int sweeps = islands_->report(i).sweeps - run.begin;

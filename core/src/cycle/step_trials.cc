@@ -172,6 +172,16 @@ void StepTrials::Note(int i, int sweeps) {
   islands[i].Judge();
 }
 
+void StepTrials::LearnGains(int i) {
+  BlockSteps& steps = *parts_.steps;
+  StepOdds& odds = steps.odds(i);
+  const bool paid = odds.pays();
+  odds.LearnGains(GainOfStep(i), GainAlone(i), steps.SizeOf(i));
+  if (!frame_->weighs_steps() || verdicts_[i] != Verdict::kKept) return;
+  const bool goes_on = paid || odds.pays() || steps.strain(i) > BlockSteps::kUnstable;
+  if (!goes_on) verdicts_[i] = Verdict::kBetterAlone;
+}
+
 void StepTrials::CompareWithBefore() {
   for (int i : stepped_) {
     if (!chosen_.Has(i)) continue;
@@ -210,9 +220,7 @@ void StepTrials::TryAlone(int sweeps) {
     if (!chosen_.Has(i)) continue;
     if (islands[i].stepped()) {
       if (verdicts_[i] == Verdict::kKept && IsBetterAlone(i)) verdicts_[i] = Verdict::kBetterAlone;
-      if (frame_->learns()) {
-        parts_.steps->odds(i).LearnGains(GainOfStep(i), GainAlone(i), parts_.steps->SizeOf(i));
-      }
+      if (frame_->learns()) LearnGains(i);
       if (verdicts_[i] != Verdict::kKept) continue;
     }
     islands[i].seen = seen_with_step_[i];

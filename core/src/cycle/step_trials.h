@@ -53,6 +53,9 @@ class StepTrials {
   bool IsSure(int island);
   /// The sweeps without its step brought an island closer to its solution than those with it.
   bool IsBetterAlone(int island);
+  /// Learns from a trial. Where steps pay neither before nor after it, the step would be one among
+  /// frames of sweeps: it would push what rests.
+  void LearnGains(int island);
   /// By how much a step and its sweeps brought phi down, see Merit, and so many sweeps alone [J].
   double GainOfStep(int island) const;
   double GainAlone(int island) const;

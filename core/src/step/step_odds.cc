@@ -24,15 +24,18 @@ constexpr double kBegins = 3, kGoesOn = 2.4;
 /// The same for small stacks, and for tiny ones: steps that come and go keep those rocking.
 constexpr double kSmallBegins = 2, kSmallGoesOn = 1.6, kTinyBegins = 1.5, kTinyGoesOn = 1.2;
 /// Errors that let heavy loads fall and beams of joints bend where sweeps leave them in frame after
-/// frame [m/s] or [rad/s]: what gravity adds in a step at 60 Hz. And those of stacks that rock.
+/// frame [m/s] or [rad/s]: what gravity adds in a step at 60 Hz, and less in shorter ones. And
+/// those of stacks that rock.
 constexpr double kGross = 0.15, kRough = 0.005;
 /// What that ratio is taken to be at least and at most, so that a contact that came in one frame
 /// does not outweigh many others.
 constexpr double kLeastRatio = 1, kMostRatio = 30;
 /// So many trials have an equal share in the mean; later ones have that of the last of these.
 constexpr int kEqualTrials = 4;
-/// Frames between two trials, while steps pay and while they do not.
+/// Frames between two trials, while steps pay and while they do not; at most half a second.
 constexpr int kLeastPause = 2, kPause = 16, kMostPause = 32;
+/// Shorter steps count as so long.
+constexpr double kMostPace = 64;
 constexpr double kLeastPower = 0.05, kMostPower = 20;
 /// The same of logarithms: what is more is rounding.
 constexpr double kMostCut = 8;
@@ -80,7 +83,8 @@ void StepOdds::LearnGains(double with_step, double alone, Size size) {
   const double least = !goes_on ? begins : tiny ? kTinyGoesOn : small ? kSmallGoesOn : kGoesOn;
   pays_ = ratio_ > Log(least);
   // what is piled up now, or begins to sag, asks for steps soon
-  trial_pause_ = pays_ ? kPause : std::clamp(2 * trial_pause_, kLeastPause, kMostPause);
+  const int most_pause = static_cast<int>(kMostPause * pace_);
+  trial_pause_ = pays_ ? kPause : std::clamp(2 * trial_pause_, kLeastPause, most_pause);
   trial_age_ = 0;
 }
 
@@ -90,9 +94,10 @@ void StepOdds::Expect(double cut) {
   if (!later_.known) later_.cut = kLater * expected_;
 }
 
-void StepOdds::EndFrame(int stepped_bodies, double error) {
+void StepOdds::EndFrame(int stepped_bodies, double error, double time_step) {
+  pace_ = time_step > 0 ? std::clamp(1 / (60 * time_step), 1.0, kMostPace) : 1;
   if (stepped_bodies == 0) {
-    gross_frames_ = error > kGross ? std::min(gross_frames_ + 1, kGrossFrames) : 0;
+    gross_frames_ = pace_ * error > kGross ? std::min(gross_frames_ + 1, kGrossFrames) : 0;
     rough_frames_ = error > kRough ? std::min(rough_frames_ + 1, kRoughFrames) : 0;
   }
   is_new_ = false;

@@ -51,7 +51,8 @@ class StepOdds {
   /// Where no step was taken, what is known of them fades into what was expected.
   /// @param stepped_bodies  of the island, 0 where no step was taken
   /// @param error  that it ended with [m/s] or [rad/s]
-  void EndFrame(int stepped_bodies, double error = 0);
+  /// @param time_step  of the frame [s], 0: unknown
+  void EndFrame(int stepped_bodies, double error = 0, double time_step = 0);
   /// The last frames that had sweeps alone ended with gross errors: what hits something is soon
   /// done with it, a load that sweeps do not carry is not.
   bool stays_gross() const { return gross_frames_ >= kGrossFrames; }
@@ -94,6 +95,7 @@ class StepOdds {
   double ratio_ = 0;
   int trials_ = 0;                       ///< that it is of
   int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again
+  double pace_ = 1;                      ///< frames as the last one in a sixtieth of a second, or 1
   double power_ = kExpectedPower;
   bool power_known_ = false;
   int age_ = 0;  ///< frames since the power was measured

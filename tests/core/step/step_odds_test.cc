@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace cairn {
@@ -92,6 +93,22 @@ TEST(StepOdds, TellALoadThatIsNotCarriedFromAHit) {
   EXPECT_FALSE(odds.stays_gross());
 }
 
+// What gravity adds in a step, and what an arm of motors sinks by in each, is less in short ones.
+TEST(StepOdds, ExpectLessOfShortSteps) {
+  const auto stays_gross = [](double error, double time_step) {
+    StepOdds odds;
+    for (int frame = 0; frame < 4; ++frame) odds.EndFrame(0, error, time_step);
+    return odds.stays_gross();
+  };
+  for (const double unknown_or_long : {0.0, 1 / 60.0, 1 / 30.0}) {
+    EXPECT_FALSE(stays_gross(0.14, unknown_or_long));
+    EXPECT_TRUE(stays_gross(0.16, unknown_or_long));
+  }
+  EXPECT_FALSE(stays_gross(0.035, 1 / 240.0));
+  EXPECT_TRUE(stays_gross(0.04, 1 / 240.0));
+  EXPECT_FALSE(stays_gross(0.002, 1e-9)) << "as if it were 1 / 3840 s";
+}
+
 // A rope that was left to sweeps meets a wall that takes steps: together they have not stepped.
 TEST(StepOdds, KnowWhetherMostBodiesWereStepped) {
   StepOdds odds;
@@ -114,6 +131,18 @@ TEST(StepOdds, KnowForASecondThatThereWasAStep) {
   EXPECT_TRUE(odds.stepped_of_late());
   odds.EndFrame(0);
   EXPECT_FALSE(odds.stepped_of_late());
+}
+
+TEST(StepOdds, AreTriedAgainAfterHalfASecondWhateverTheRate) {
+  for (const double rate : {30., 60., 120., 240., 1000.}) {
+    StepOdds odds;
+    int frames = 0;
+    for (int trial = 0; trial < 12; ++trial) {
+      odds.LearnGains(1, 1);
+      for (frames = 0; !odds.wants_trial(); ++frames) odds.EndFrame(0, 0, 1 / rate);
+    }
+    EXPECT_EQ(frames, static_cast<int>(32 * std::max(1., rate / 60))) << rate << " Hz";
+  }
 }
 
 TEST(StepOdds, AreTriedBeforeAnythingIsKnownAndSoonAgainWhereTheyDoNotPay) {
