@@ -50,13 +50,19 @@ TEST(Stand, TowerStandsForTenSecondsAndSagsTenTimesLessThanWithBullet) {
 // Rounds were of five sweeps, so that no step followed with fewer than eight iterations.
 TEST(Stand, TowersStandWithFewIterations) {
   for (const int iterations : {2, 3, 4, 5}) {
-    bullet::ConstraintSolver cairn;
-    SceneWorld world("tower", &cairn, {.size = 10, .friction_directions = 1});
-    world.world().solver_info().m_numIterations = iterations;
-    world.Step(kTenSeconds);
-    const bench::SceneFacts facts = world.Measure();
-    EXPECT_EQ(facts.verdict, bench::SceneFacts::Verdict::kStanding) << iterations;
-    EXPECT_LT(facts.height_lost_m, 0.02) << iterations;
+    std::vector<double> lost;
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      bullet::ConstraintSolver cairn;
+      SceneWorld world("tower", &cairn, {.size = 10, .seed = seed, .friction_directions = 1});
+      world.world().solver_info().m_numIterations = iterations;
+      world.Step(kTenSeconds);
+      const bench::SceneFacts facts = world.Measure();
+      EXPECT_EQ(facts.verdict, bench::SceneFacts::Verdict::kStanding)
+          << iterations << ", seed " << seed;
+      lost.push_back(facts.height_lost_m);
+    }
+    std::nth_element(lost.begin(), lost.begin() + 2, lost.end());
+    EXPECT_LT(lost[2], 0.01) << iterations;
   }
 }
 
