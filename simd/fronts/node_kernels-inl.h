@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 /// A number of each node, of at most @p most of them.
 template <class T, int most>
-struct alignas(std::min<std::size_t>(most * sizeof(T), 64)) Line {
+struct alignas(std::min<std::size_t>(most * sizeof(T), 64)) NodeLine {
   using Number = T;
   static constexpr int kMost = most;
   T lane[most];
@@ -321,8 +321,8 @@ void SolveUp(const NodeLanes& nodes, const Columns<L>& columns, Number<L>* x) {
 /// function(columns) with those that are wide enough.
 template <class T, class Function>
 HWY_INLINE auto InLines(const NodeLanes& nodes, T* columns, const Function& function) {
-  using Few = Columns<Line<T, kFewNodes>>;
-  using Many = Columns<Line<T, kLanes>>;
+  using Few = Columns<NodeLine<T, kFewNodes>>;
+  using Many = Columns<NodeLine<T, kLanes>>;
   static_assert(sizeof(Few) == sizeof(T) * kNodeLines * kFewNodes);
   static_assert(sizeof(Many) == sizeof(T) * kNodeLines * kLanes);
   T* const own = columns + nodes.columns;

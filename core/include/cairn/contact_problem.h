@@ -60,7 +60,7 @@ struct ContactProblem {
   std::span<const ContactTwist> twists = {};  ///< One per point, or none.
   std::span<const Joint> joints = {};
   std::span<const JointRow> joint_rows = {};  ///< Of the joints; others are not looked at.
-  double time_step = 0;  ///< [s], >= 0; 0: unknown. Geometric stiffness and substeps go by it.
+  double time_step = 0;  ///< [s], >= 0; 0: unknown. Tension, substeps and weighed steps go by it.
 };
 
 /// Rows of a problem, with those of joints and manifolds.

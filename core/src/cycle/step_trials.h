@@ -17,7 +17,7 @@
 namespace cairn {
 
 /// Takes steps, and after the sweeps that follow them keeps those that are better than as many
-/// sweeps alone, and do no harm.
+/// sweeps alone, do no harm, and do not stand alone among frames of sweeps.
 class StepTrials {
  public:
   /// What it works with; outlives the frame.
@@ -53,8 +53,8 @@ class StepTrials {
   bool IsSure(int island);
   /// The sweeps without its step brought an island closer to its solution than those with it.
   bool IsBetterAlone(int island);
-  /// Learns from a trial. Where steps pay neither before nor after it, the step would be one among
-  /// frames of sweeps: it would push what rests.
+  /// Learns from a trial. Where steps did not pay before it, and do not after it, its step is not
+  /// kept: one among frames of sweeps pushes what rests.
   void LearnGains(int island);
   /// By how much a step and its sweeps brought phi down, see Merit, and so many sweeps alone [J].
   double GainOfStep(int island) const;

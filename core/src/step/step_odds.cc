@@ -32,9 +32,10 @@ constexpr double kGross = 0.15, kRough = 0.005;
 constexpr double kLeastRatio = 1, kMostRatio = 30;
 /// So many trials have an equal share in the mean; later ones have that of the last of these.
 constexpr int kEqualTrials = 4;
-/// Frames between two trials, while steps pay and while they do not; at most half a second.
+/// Frames between two trials, while steps pay and, at most, while they do not: half a second at 60
+/// Hz and more.
 constexpr int kLeastPause = 2, kPause = 16, kMostPause = 32;
-/// Shorter steps count as so long.
+/// Most steps in a sixtieth of a second; shorter ones count as if they were not.
 constexpr double kMostPace = 64;
 constexpr double kLeastPower = 0.05, kMostPower = 20;
 /// The same of logarithms: what is more is rounding.

@@ -95,7 +95,7 @@ class StepOdds {
   double ratio_ = 0;
   int trials_ = 0;                       ///< that it is of
   int trial_age_ = 0, trial_pause_ = 0;  ///< frames since both were tried, and until they are again
-  double pace_ = 1;                      ///< frames as the last one in a sixtieth of a second, or 1
+  double pace_ = 1;  ///< so many times shorter than 1/60 s the last frame was, or 1
   double power_ = kExpectedPower;
   bool power_known_ = false;
   int age_ = 0;  ///< frames since the power was measured

@@ -141,7 +141,7 @@ typedef struct CairnProblem {
   const CairnJointRow* jointRows;
   int32_t bodyCount, manifoldCount, pointCount, twistCount, jointCount, jointRowCount;
   float bounceSpeed; /* bodies that approach slower do not bounce [m/s] */
-  float timeStep;    /* [s], or 0: what geometricStiffness and arms with substeps go by */
+  float timeStep;    /* [s], or 0: tension, arms with substeps and weighed steps go by it */
 } CairnProblem;
 
 /* Impulses are read as the start, and written; velocities are written. One of each per point,
