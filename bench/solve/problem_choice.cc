@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <set>
 
@@ -140,7 +141,9 @@ class Chooser {
     }
     if (problems::IsProblemFolder(path)) return AddFolder(path);
     const std::vector<fs::path> recordings = RecordingsIn(path);
-    for (const fs::path& recording : recordings) AddRecording(recording);
+    for (const fs::path& recording : recordings) {
+      AddAmongOthers(recording, [&] { AddRecording(recording); });
+    }
     const std::vector<fs::path> folders = problems::ProblemFoldersIn(path);
     if (folders.empty() && recordings.empty()) {
       throw Failure(kBadInput,
@@ -149,12 +152,25 @@ class Chooser {
                                 path.string(), kRecordingEnding));
     }
     for (const fs::path& folder : folders) {
-      if (problems::ReadKind(folder) == "friction") {
-        choices_.skipped.push_back(
-            {folder.filename().string(), "kind friction: bounds that follow other unknowns"});
-      } else {
-        AddFolder(folder);
-      }
+      AddAmongOthers(folder, [&] {
+        if (problems::ReadKind(folder) == "friction") {
+          choices_.skipped.push_back(
+              {folder.filename().string(), "kind friction: bounds that follow other unknowns"});
+        } else {
+          AddFolder(folder);
+        }
+      });
+    }
+  }
+
+  /// What cannot be read leaves the others alone.
+  void AddAmongOthers(const fs::path& path, const std::function<void()>& add) {
+    try {
+      add();
+    } catch (const problems::FileError& error) {
+      choices_.unread.push_back({path.string(), error.what()});
+    } catch (const Failure& error) {
+      choices_.unread.push_back({path.string(), error.what()});
     }
   }
 

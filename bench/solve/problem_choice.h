@@ -31,6 +31,11 @@ struct SkippedFolder {
   std::string name, reason;
 };
 
+/// A problem or recording in a folder of several that cannot be used.
+struct UnreadFile {
+  std::string path, reason;  ///< The reason names the file, too.
+};
+
 /// What was typed about problems.
 struct ProblemWords {
   std::vector<std::string> names;     ///< Generators, folders of problems, recordings.
@@ -42,11 +47,13 @@ struct ProblemChoices {
   std::vector<ProblemChoice> problems;
   std::vector<std::shared_ptr<const RowProblem>> frames;  ///< Recordings.
   std::vector<SkippedFolder> skipped;
+  std::vector<UnreadFile> unread;
 };
 
-/// Reads all folders and recordings, so that a broken one is found before anything is solved.
-/// @throws Failure: kUsage for an unknown name, size or parameter, kBadInput for a folder that
-/// cannot be read or whose numbers Validate() refuses.
+/// Reads all folders and recordings, so that a broken one is found before anything is solved. One
+/// among others of a folder becomes `unread`, and the others stay.
+/// @throws Failure: kUsage for an unknown name, size or parameter, kBadInput for what was typed
+/// itself and cannot be read, or whose numbers Validate() refuses.
 ProblemChoices ParseProblems(const ProblemWords& words);
 
 }  // namespace cairn::cli

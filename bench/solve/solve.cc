@@ -119,6 +119,7 @@ SolveResult Solve(const SolveOptions& options, const std::string& command) {
   result.clock = options.solver.threads > 1 ? SolverClock::kWall : SolverClock::kThreadCpu;
   result.errors = options.errors;
   result.skipped = options.skipped;
+  result.unread = options.unread;
   result.row_options = options.row_solver;
   result.solvers = options.solver_names;
 

@@ -25,6 +25,7 @@ struct SolveOptions {
   std::vector<ProblemChoice> problems;
   std::vector<std::shared_ptr<const RowProblem>> frames;  ///< Recordings.
   std::vector<SkippedFolder> skipped;
+  std::vector<UnreadFile> unread;
   std::vector<const LcpSolverEntry*> solvers;      ///< Of the problems.
   std::vector<const RowSolverEntry*> row_solvers;  ///< Of the frames.
   std::vector<std::string> solver_names;           ///< Of both, each once, as they were typed.

@@ -104,6 +104,7 @@ struct SolveResult : RunContext {
   std::vector<std::string> solvers;
   std::vector<ProblemResult> problems;
   std::vector<SkippedFolder> skipped;
+  std::vector<UnreadFile> unread;
 
   bool any_failed() const;
   bool any_march() const;

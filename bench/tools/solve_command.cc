@@ -57,7 +57,8 @@ On a recorded frame, each solver goes from the recorded start as far as --budget
 velocities against a converged reference, and natural residuals, both in m/s.
 
 Exit codes: 0 fine, 1 a solver refused, missed the tolerance or an answer, 2 usage, 3 a file
-cannot be used.)";
+cannot be used. What cannot be read in a folder of several is left out, and the others are solved:
+that is 3, too.)";
 
 constexpr std::pair<StartRule, const char*> kStarts[] = {
     {StartRule::kZero, "zero"}, {StartRule::kWarm, "warm"}, {StartRule::kNested, "nested"}};
@@ -182,9 +183,11 @@ SolveOptions Check(const SolveWords& words) {
   options.problems = std::move(choices.problems);
   options.frames = std::move(choices.frames);
   options.skipped = std::move(choices.skipped);
+  options.unread = std::move(choices.unread);
   const ProblemKinds kinds{.matrices = !options.problems.empty(),
                            .frames = !options.frames.empty()};
   if (!kinds.matrices && !kinds.frames) {
+    if (!options.unread.empty()) throw Failure(kBadInput, options.unread.front().reason);
     throw Failure(kBadInput, fmt::format("nothing to solve: all {} problems are of kind friction",
                                          options.skipped.size()));
   }
@@ -234,12 +237,16 @@ int DoSolve(const SolveWords& words, const std::string& command) {
                   words.force ? IfThere::kOverwrite : IfThere::kRefuse);
   }
   WarnOfTarget();
+  for (const UnreadFile& file : options.unread) {
+    fmt::print(stderr, "cairn: left out: {}\n", file.reason);
+  }
   const SolveResult result = Solve(options, command);
   fmt::print("{}", ToText(result));
   if (!words.output.quiet) fmt::print("{}", ReadingHelp(result));
   WriteFiles(files, result);
   if (!words.solution.empty()) WriteSolutions(words.solution, result);
-  return result.any_failed() ? kCheckFailed : kFine;
+  if (result.any_failed()) return kCheckFailed;
+  return result.unread.empty() ? kFine : kBadInput;
 }
 
 void AddSolverOptions(CLI::App* solve, SolveWords* words) {

@@ -161,11 +161,16 @@ std::string ToJson(const SolveResult& result) {
   for (const SkippedFolder& folder : result.skipped) {
     skipped.push_back({{"name", folder.name}, {"reason", folder.reason}});
   }
+  Json unread = Json::array();
+  for (const UnreadFile& file : result.unread) {
+    unread.push_back({{"path", file.path}, {"reason", file.reason}});
+  }
   const Json json = {{"schema_version", 1},
                      {"context", ToJson(static_cast<const RunContext&>(result))},
                      {"settings", Settings(result)},
                      {"problems", List(result.problems)},
-                     {"skipped", skipped}};
+                     {"skipped", skipped},
+                     {"unread", unread}};
   return json.dump(1) + "\n";
 }
 

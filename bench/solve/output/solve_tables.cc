@@ -277,6 +277,11 @@ std::string SolvedSummary(const SolveResult& result) {
     text += fmt::format("{} skipped, {} ({})\n", names.size(), result.skipped.front().reason,
                         Some(names));
   }
+  if (!result.unread.empty()) {
+    std::vector<std::string> paths;
+    for (const UnreadFile& file : result.unread) paths.push_back(file.path);
+    text += fmt::format("{} left out, not readable ({})\n", paths.size(), Some(paths));
+  }
   return text;
 }
 

@@ -243,11 +243,32 @@ class RefusalTest(SolveTestCase):
         self.assertIn("kind 'friction' cannot be solved here",
                       self.refused(BAD_INPUT, "solve", folder))
 
-    def test_a_broken_problem_among_others_is_found_before_any_is_solved(self):
+    def test_a_broken_problem_that_was_named_is_found_before_any_is_solved(self):
+        folders = [self.stack("a"), self.stack("b")]
+        os.remove(os.path.join(folders[1], "q.mtx"))
+        self.assertIn("b/q.mtx: cannot be read", self.refused(BAD_INPUT, "solve", *folders))
+
+    def test_broken_problems_of_a_folder_are_left_out_and_the_others_solved(self):
         self.stack("a")
         folder = self.stack("b")
         os.remove(os.path.join(folder, "q.mtx"))
-        self.assertIn("b/q.mtx: cannot be read", self.refused(BAD_INPUT, "solve", self.folder))
+        write_problem(self.folder, "c", [[1, 0.5], [0.5, -1]], [1.0, 1.0])
+        result = cairn("solve", self.folder, "--solver", "pgs", "--json", self.path("r.json"))
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertIn("pgs: 1 of 1 solved", result.stdout)
+        self.assertIn("2 left out, not readable", result.stdout)
+        left_out = result.stderr.splitlines()
+        self.assertEqual(len(left_out), 2, result.stderr)
+        self.assertIn("b/q.mtx: cannot be read", left_out[0])
+        self.assertIn("c, row 2: ", left_out[1])
+        with open(self.path("r.json"), encoding="utf-8") as file:
+            told = json.load(file)
+        self.assertEqual([problem["problem"] for problem in told["problems"]], ["a"])
+        self.assertEqual([file["path"] for file in told["unread"]], [folder, self.path("c")])
+
+    def test_a_folder_of_which_nothing_can_be_read_says_why(self):
+        os.remove(os.path.join(self.stack("a"), "q.mtx"))
+        self.assertIn("a/q.mtx: cannot be read", self.refused(BAD_INPUT, "solve", self.folder))
 
     def test_files_that_cannot_be_written_are_refused_before_solving(self):
         folder = self.stack()

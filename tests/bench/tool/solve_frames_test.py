@@ -228,6 +228,20 @@ class FramesTest(cli_test.CairnTest):
             self.assertIn(words, message)
             self.assertIn(name, message)
 
+    def test_a_cut_file_of_a_folder_is_left_out_and_the_others_solved(self):
+        path = self.record("chain")
+        with open(path, "rb") as file:
+            data = file.read()
+        with open(os.path.join(os.path.dirname(path), "cut.cairn"), "wb") as file:
+            file.write(data[:-7])
+        result = cairn("solve", os.path.dirname(path), "--solver", "pgs", "--max-sweeps", "3",
+                       "--errors", "none")
+        self.assertEqual(result.returncode, BAD_INPUT)
+        self.assertIn("cut.cairn': ", result.stderr)
+        self.assertIn("7 too few", result.stderr)
+        self.assertIn("chain-000020: ", result.stdout)
+        self.assertIn("sweep limit", result.stdout)
+
 
 if __name__ == "__main__":
     cli_test.TOOL = os.path.abspath(sys.argv.pop(1))
