@@ -165,12 +165,10 @@ std::string ToJson(const SolveResult& result) {
   for (const UnreadFile& file : result.unread) {
     unread.push_back({{"path", file.path}, {"reason", file.reason}});
   }
-  const Json json = {{"schema_version", 1},
-                     {"context", ToJson(static_cast<const RunContext&>(result))},
-                     {"settings", Settings(result)},
-                     {"problems", List(result.problems)},
-                     {"skipped", skipped},
-                     {"unread", unread}};
+  const Json json = {
+      {"schema_version", 1},          {"context", ToJson(static_cast<const RunContext&>(result))},
+      {"settings", Settings(result)}, {"problems", List(result.problems)},
+      {"skipped", skipped},           {"unread", unread}};
   return json.dump(1) + "\n";
 }
 
