@@ -24,22 +24,33 @@ int AddressIndex::Find(const void* address) {
     return static_cast<int>(place);
   }
   if (table_.empty()) FillTable();
-  for (std::size_t at = HashOf(address);; at = (at + 1) & (table_.size() - 1)) {
-    if (table_[at] == 0) return -1;
-    const int place = table_[at] - 1;
-    if (addresses_[place] != address) continue;
-    next_ = static_cast<std::size_t>(place) + 1;
-    return place;
-  }
+  const int place = table_[SlotOf(address)] - 1;
+  if (place >= 0) next_ = static_cast<std::size_t>(place) + 1;
+  return place;
+}
+
+void AddressIndex::Put(const void* address) {
+  if (2 * addresses_.size() + 2 > table_.size()) FillTable();
+  int& place = table_[SlotOf(address)];
+  if (place != 0) addresses_[place - 1] = nullptr;
+  addresses_.push_back(address);
+  place = static_cast<int>(addresses_.size());
 }
 
 void AddressIndex::FillTable() {
-  table_.assign(std::bit_ceil(2 * addresses_.size() + 1), 0);
+  table_.assign(std::bit_ceil(4 * addresses_.size() + 4), 0);
   for (std::size_t place = 0; place < addresses_.size(); ++place) {
-    std::size_t at = HashOf(addresses_[place]);
-    while (table_[at] != 0) at = (at + 1) & (table_.size() - 1);
-    table_[at] = static_cast<int>(place) + 1;
+    if (addresses_[place] == nullptr) continue;
+    table_[SlotOf(addresses_[place])] = static_cast<int>(place) + 1;
   }
+}
+
+std::size_t AddressIndex::SlotOf(const void* address) const {
+  std::size_t at = HashOf(address);
+  while (table_[at] != 0 && addresses_[table_[at] - 1] != address) {
+    at = (at + 1) & (table_.size() - 1);
+  }
+  return at;
 }
 
 std::size_t AddressIndex::HashOf(const void* address) const {

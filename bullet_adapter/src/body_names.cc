@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "body_names.h"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace cairn::bullet {
@@ -22,33 +21,35 @@ template struct MemberOf<&btRigidBody::m_debugBodyId>;
 
 int NumberOf(const btRigidBody& body) { return body.*NumberMember(); }
 
+void BodyNames::BeginSubstep() {
+  for (const int number : displaced_) {
+    const auto found = by_number_.find(number);
+    if (found == by_number_.end()) continue;
+    if (places_[found->second.place].number != number) by_number_.erase(found);
+  }
+  displaced_.clear();
+}
+
 void BodyNames::Enter(int place, const btRigidBody& body) {
   const auto at = static_cast<std::size_t>(place);
+  const int number = NumberOf(body);
   // what comes to the end of a world is new
   const bool at_end = at >= places_.size();
   if (at_end) places_.resize(at + 1);
-  std::uint64_t name = at_end ? 0 : NameBefore(NumberOf(body));
   Place& there = places_[at];
+  if (there.name != 0 && there.number != number) displaced_.push_back(there.number);
+  const auto known = at_end ? by_number_.end() : by_number_.find(number);
+  std::uint64_t name = known == by_number_.end() ? 0 : known->second.name;
   if (name == 0) name = (std::uint64_t{there.given++} << 32) | (static_cast<std::uint64_t>(at) + 1);
   there.name = name;
-  there.number = NumberOf(body);
+  there.number = number;
+  by_number_.insert_or_assign(number, Named{name, place});
 }
 
 void BodyNames::Forget() {
-  places_.clear();
-  listed_ = false;
-}
-
-std::uint64_t BodyNames::NameBefore(int number) {
-  if (!std::exchange(listed_, true)) {
-    before_.clear();
-    for (const Place& place : places_) {
-      if (place.name != 0) before_.emplace_back(place.number, place.name);
-    }
-    std::sort(before_.begin(), before_.end());
-  }
-  const auto found = std::lower_bound(before_.begin(), before_.end(), Named(number, 0));
-  return found != before_.end() && found->first == number ? found->second : 0;
+  places_ = {};
+  by_number_ = {};
+  displaced_ = {};
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

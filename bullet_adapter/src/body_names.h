@@ -4,7 +4,7 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
 #include <cstdint>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
 #include "cairn/bullet/precision.h"
@@ -22,7 +22,7 @@ int NumberOf(const btRigidBody& body);
 /// along.
 class BodyNames {
  public:
-  void BeginSubstep() { listed_ = false; }
+  void BeginSubstep();
   /// Whether the body had this place, at least 0, when it was last entered.
   bool Knows(int place, const btRigidBody& body) const {
     return place < static_cast<int>(places_.size()) && places_[place].number == NumberOf(body) &&
@@ -40,15 +40,16 @@ class BodyNames {
     int number = 0;           ///< its own, which Bullet gave it
     std::uint32_t given = 0;  ///< names that began at the place
   };
-  using Named = std::pair<int, std::uint64_t>;  ///< number and name of a body
-
-  /// The name that a body had at another place, 0 for a new one.
-  std::uint64_t NameBefore(int number);
+  /// The name of a body, and its place.
+  struct Named {
+    std::uint64_t name;
+    int place;
+  };
 
   std::vector<Place> places_;
-  /// As places were before this substep, once one of them has changed in it; by number.
-  bool listed_ = false;
-  std::vector<Named> before_;
+  std::unordered_map<int, Named>
+      by_number_;               ///< of all that are at a place, or were in this substep
+  std::vector<int> displaced_;  ///< numbers of those whose place another body has taken since
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -113,7 +114,7 @@ struct ConstraintSolver::Impl {
   Options options;
   Solver solver, solver_of_rows;  ///< Mode::kFast, and Mode::kReference
   GroupRows rows;
-  FastGroup fast;
+  std::optional<FastGroup> fast{std::in_place};  ///< always there; made anew by a reset
   BadObjects bad_objects;
   OddIslands islands;
   /// What was wrong where Mode::kReference could solve it all the same, or with a part of the group
@@ -234,16 +235,16 @@ void ConstraintSolver::Warn(btIDebugDraw* debug_drawer) {
 }
 
 ContactProblem ConstraintSolver::problem() const {
-  return impl_->solved_fast ? impl_->fast.problem() : impl_->rows.problem();
+  return impl_->solved_fast ? impl_->fast->problem() : impl_->rows.problem();
 }
 
 int ConstraintSolver::place_of(const btRigidBody& body) const {
-  return impl_->solved_fast ? impl_->fast.place_of(body) : -1;
+  return impl_->solved_fast ? impl_->fast->place_of(body) : -1;
 }
 
 std::span<const double> ConstraintSolver::impulses() const {
   if (!impl_->solved_fast) return impl_->rows.impulses();
-  impl_->shown_impulses = AllImpulses(impl_->fast.problem(), impl_->fast.impulses());
+  impl_->shown_impulses = AllImpulses(impl_->fast->problem(), impl_->fast->impulses());
   return impl_->shown_impulses;
 }
 
@@ -294,7 +295,7 @@ btScalar ConstraintSolver::solveGroup(btCollisionObject** bodies, int num_bodies
   }
   btScalar result = 0;
   if (!solved) {
-    impl_->fast.Forget();
+    impl_->fast->Forget();
     result = impl_->SolveAsBullet(call, group);
   }
   Warn(debug_drawer);
@@ -313,7 +314,7 @@ bool ConstraintSolver::Impl::SolveGood(const Call& call, Group* group) {
   const bool named = report.bad_body >= 0 || report.bad_row >= 0 || report.bad_joint >= 0 ||
                      report.bad_manifold >= 0;
   if (!named) return false;
-  const BadThings found = fast.FindBad();
+  const BadThings found = fast->FindBad();
   std::string why = Describe(report);
   if (bad_objects.Cut(whole, found, why)) {
     *group = bad_objects.others();
@@ -321,7 +322,7 @@ bool ConstraintSolver::Impl::SolveGood(const Call& call, Group* group) {
   } else if (found.points.empty()) {
     return false;
   }
-  fast.Unread();
+  fast->Unread();
   if (!SolveMost(call, *group, found.points)) return false;
   fell_back = true;
   refused = why;
@@ -365,7 +366,14 @@ void ConstraintSolver::reset() {
   btSequentialImpulseConstraintSolver::reset();
   impl_->solver.Reset();
   impl_->solver_of_rows.Reset();
-  impl_->fast.Reset();
+  impl_->fast.emplace();
+  impl_->rows = {};
+  impl_->shown_impulses = {};
+  if (!impl_->collecting) {
+    impl_->bodies = {};
+    impl_->manifolds = {};
+    impl_->constraints = {};
+  }
   impl_->write_time = impl_->finish_time = {};
   impl_->report = {};
   impl_->refused.clear();
@@ -378,7 +386,7 @@ bool ConstraintSolver::Impl::SolveFast(const Group& group, const btContactSolver
   threads.Follow(settings.threads, settings.executor);
   threads.RecordTo(settings.tuning.spans);
   // from reading to writing back; how many are worth it the last substep tells
-  const detail::AwakeHelpers awake(&threads, detail::ThreadsFor(fast.rows(), settings.threads));
+  const detail::AwakeHelpers awake(&threads, detail::ThreadsFor(fast->rows(), settings.threads));
   {
     const SpanClock clock(settings.tuning.spans, 0, {SpanKind::kRead});
     Options of_group = options;
@@ -387,34 +395,34 @@ bool ConstraintSolver::Impl::SolveFast(const Group& group, const btContactSolver
     // what is swept in double precision is not rounded to floats before
     if (PathOf(ForGroup(settings, options, info, 0, 1)) == Path::kReference)
       of_group.contacts = ContactForm::kRows;
-    fast.Read(group, info, LimitsOf(ByIterations(settings, options), group.joints), of_group,
-              settings.substeps, &threads);
+    fast->Read(group, info, LimitsOf(ByIterations(settings, options), group.joints), of_group,
+               settings.substeps, &threads);
   }
-  if (fast.problem().bodies.empty()) {
-    fast.Rest();
+  if (fast->problem().bodies.empty()) {
+    fast->Rest();
     report = {};
     report.stop = StopReason::kConverged;
     report.elapsed = Passed(start, Now());
     solved_fast = true;
     return true;
   }
-  const bool recording = BeginRecording(fast.problem(), fast.impulses());
+  const bool recording = BeginRecording(fast->problem(), fast->impulses());
   const nanoseconds built = Now();
-  Settings of_group = ForGroup(settings, options, info, fast.most_sweeps(), group.units_per_metre);
+  Settings of_group = ForGroup(settings, options, info, fast->most_sweeps(), group.units_per_metre);
   SetTimeLeft(&of_group.budget);
   solver.settings() = of_group;
-  solver.Solve(fast.problem(), fast.impulses(), fast.velocities(), &report);
+  solver.Solve(fast->problem(), fast->impulses(), fast->velocities(), &report);
   const nanoseconds solved = Now();
-  if (report.ok() && !fast.FitsBullet()) report.status = Status::kOverflow;
+  if (report.ok() && !fast->FitsBullet()) report.status = Status::kOverflow;
   solved_fast = report.ok();
 
   if (solved_fast) {
     const SpanClock clock(settings.tuning.spans, 0, {SpanKind::kWrite});
     if (Stiffens()) {
       const SpanClock tension(settings.tuning.spans, 0, {SpanKind::kTension});
-      fast.Learn(info, report);
+      fast->Learn(info, report);
     }
-    fast.Write(info, solver.mean_velocities());
+    fast->Write(info, solver.mean_velocities());
     const nanoseconds write = Passed(solved, Now());
     SetAside(write, &write_time);
     finish_time = {};

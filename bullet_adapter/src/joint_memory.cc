@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -54,11 +55,14 @@ Products ProductsOf(const RowA& a, const RowB& b, const JointRows& joint, float 
 
 /// Likewise, with the three numbers of a vector side by side.
 Products ProductsOf(const JointRow& a, const JointRow& b, const JointRows& joint, float lever) {
-  // a row is four vectors, each with a number behind it that does not count
+  // a row is four vectors, each with a number behind it that does not count; infinite ones would
+  // raise exceptions of floating point
   using Four = Eigen::Array4f;
   static_assert(sizeof(JointRow) == 16 * sizeof(float));
   const auto vector = [](const JointRow& row, int k) -> Four {
-    return Eigen::Map<const Four>(reinterpret_cast<const float*>(&row) + 4 * k);
+    Four four = Eigen::Map<const Four>(reinterpret_cast<const float*>(&row) + 4 * k);
+    four[3] = 0;
+    return four;
   };
   Four ab = Four::Zero(), aa = Four::Zero(), bb = Four::Zero();
   for (int k = joint.a_moves ? 0 : 2; k < (joint.b_moves ? 4 : 2); ++k) {
@@ -99,31 +103,47 @@ void JointMemory::Joints::Clear() {
   index.Clear();
 }
 
-void JointMemory::Joints::Add(const Entry& entry, const JointRows& rows, const GroupProblem& from) {
-  JointRows& added = problem.joints.emplace_back(rows);
-  const auto append = [&](const auto& all, auto* to) {
-    to->insert(to->end(), all.begin() + rows.first_row, all.begin() + rows.first_row + rows.rows);
+void JointMemory::Asleep::FallAsleep(Entry entry, const JointRows& rows, const GroupProblem& from) {
+  entry.asleep_as = fell_asleep++;
+  const auto copy = [&](const auto& all, auto* to, int first) {
+    if (static_cast<int>(to->size()) < first + rows.rows) to->resize(first + rows.rows);
+    std::copy_n(all.begin() + rows.first_row, rows.rows, to->begin() + first);
   };
-  if (rows.written_out) {
-    added.first_row = static_cast<int>(problem.rows.size());
-    append(from.rows, &problem.rows);
-    append(from.impulses, &problem.impulses);
-  } else {
-    added.first_row = static_cast<int>(problem.joint_rows.size());
-    append(from.joint_rows, &problem.joint_rows);
-    append(from.joint_impulses, &problem.joint_impulses);
+  int place = index.Find(rows.joint);
+  const bool fits = place >= 0 && problem.joints[place].rows == rows.rows &&
+                    problem.joints[place].written_out == rows.written_out;
+  if (!fits) {
+    if (entries.size() >= most) DropOthers();
+    place = static_cast<int>(entries.size());
+    index.Put(rows.joint);
+    entries.emplace_back();
+    problem.joints.emplace_back().first_row =
+        static_cast<int>(rows.written_out ? problem.rows.size() : problem.joint_rows.size());
   }
-  entries.push_back(entry);
-  index.Add(rows.joint);
+  entries[place] = entry;
+  const int first = std::exchange(problem.joints[place], rows).first_row;
+  problem.joints[place].first_row = first;
+  if (rows.written_out) {
+    copy(from.rows, &problem.rows, first);
+    copy(from.impulses, &problem.impulses, first);
+  } else {
+    copy(from.joint_rows, &problem.joint_rows, first);
+    copy(from.joint_impulses, &problem.joint_impulses, first);
+  }
 }
 
-template <class Keeps>
-void JointMemory::Joints::Filter(const Keeps& keeps) {
+void JointMemory::Asleep::DropOthers() {
   size_t kept = 0;
   int rows = 0, compact_rows = 0;
-  index.Clear();
+  const auto is_last = [this](size_t i) {
+    return index.Find(problem.joints[i].joint) == static_cast<int>(i);
+  };
+  const auto is_kept = [&](size_t i) {
+    const Entry& entry = entries[i];
+    return entry.met_in == 0 && entry.asleep_as >= fell_asleep - kMost && is_last(i);
+  };
   for (size_t i = 0; i < entries.size(); ++i) {
-    if (!keeps(i)) continue;
+    if (!is_kept(i)) continue;
     JointRows of_joint = problem.joints[i];
     const auto move = [&](auto* all, int to) {
       std::copy_n(all->begin() + of_joint.first_row, of_joint.rows, all->begin() + to);
@@ -139,7 +159,6 @@ void JointMemory::Joints::Filter(const Keeps& keeps) {
     of_joint.first_row = std::exchange(end, end + of_joint.rows);
     problem.joints[kept] = of_joint;
     entries[kept++] = entries[i];
-    index.Add(of_joint.joint);
   }
   problem.joints.resize(kept);
   entries.resize(kept);
@@ -147,6 +166,9 @@ void JointMemory::Joints::Filter(const Keeps& keeps) {
   problem.impulses.resize(static_cast<size_t>(rows));
   problem.joint_rows.resize(static_cast<size_t>(compact_rows));
   problem.joint_impulses.resize(static_cast<size_t>(compact_rows));
+  index.Clear();
+  for (const JointRows& joint : problem.joints) index.Put(joint.joint);
+  most = std::max(kFew, 2 * kept);
 }
 
 void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar factor,
@@ -159,16 +181,15 @@ void JointMemory::Begin(std::span<btTypedConstraint* const> joints, btScalar fac
   factor_ = factor;
   time_step_ = time_step;
   lever_ = static_cast<float>(1 / (units_per_metre * units_per_metre));
-  if (factor == 0) asleep_.Clear();
+  if (factor == 0) asleep_ = {};
   last_.index.Rewind();
-  asleep_.index.Rewind();
   applied_.clear();
   for (size_t i = 0; i < joints.size(); ++i) {
     if (i + kAhead < joints.size()) PrefetchJoint(*joints[i + kAhead], kHeadOfJoint);
     applied_.push_back(joints[i]->internalGetAppliedImpulse());
     if (joints[i]->isEnabled()) continue;
     // switched off, it does not sleep
-    for (Joints* const known : {&last_, &asleep_}) {
+    for (Joints* const known : {&last_, static_cast<Joints*>(&asleep_)}) {
       const int found = known->index.Find(joints[i]);
       if (found < 0) continue;
       Entry& entry = known->entries[found];
@@ -229,7 +250,7 @@ void JointMemory::Unread(GroupProblem* group) {
   std::swap(last_.problem, *group);
   last_.problem.Clear();
   kept_ = true;
-  for (Joints* const known : {&last_, &asleep_}) {
+  for (Joints* const known : {&last_, static_cast<Joints*>(&asleep_)}) {
     for (Entry& entry : known->entries) {
       if (entry.met_in == groups_) entry.met_in = 0;
     }
@@ -253,29 +274,17 @@ void JointMemory::Keep(const GroupProblem& group) {
 }
 
 void JointMemory::KeepThoseAsleep() {
-  const auto absent = [](const Entry& entry) { return entry.met_in == 0; };
-  if (factor_ == 0 || std::none_of(last_.entries.begin(), last_.entries.end(), absent)) return;
-  for (Entry& entry : last_.entries) {
-    if (entry.met_in == 0) entry.asleep_as = fell_asleep_++;
-  }
+  if (factor_ == 0) return;
   // those that were removed are among them
-  constexpr std::int64_t kMost = 1 << 14;
-  last_.index.Rewind();
-  asleep_.Filter([&](size_t i) {
-    const Entry& entry = asleep_.entries[i];
-    // another one may have the address of one that was removed
-    return entry.met_in == 0 && entry.asleep_as >= fell_asleep_ - kMost &&
-           last_.index.Find(asleep_.problem.joints[i].joint) < 0;
-  });
   for (size_t i = 0; i < last_.entries.size(); ++i) {
     if (last_.entries[i].met_in != 0) continue;
-    asleep_.Add(last_.entries[i], last_.problem.joints[i], last_.problem);
+    asleep_.FallAsleep(last_.entries[i], last_.problem.joints[i], last_.problem);
   }
 }
 
 void JointMemory::Forget() {
-  last_.Clear();
-  asleep_.Clear();
+  last_ = {};
+  asleep_ = {};
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

@@ -54,10 +54,20 @@ class JointMemory {
     AddressIndex index;          ///< of the entries
 
     void Clear();
-    void Add(const Entry& entry, const JointRows& rows, const GroupProblem& from);
-    /// Keeps those that @p keeps says, of their places.
-    template <class Keeps>
-    void Filter(const Keeps& keeps);
+  };
+  /// Those that have been in no group since, and some that were removed or met again: going over
+  /// them all is put off until there are twice as many.
+  struct Asleep : Joints {
+    std::int64_t fell_asleep = 0;  ///< how many ever have
+    std::size_t most = kFew;       ///< entries until that is due
+
+    void FallAsleep(Entry entry, const JointRows& rows, const GroupProblem& from);
+
+   private:
+    static constexpr std::int64_t kMost = 1 << 14;
+    static constexpr std::size_t kFew = 64;
+
+    void DropOthers();
   };
 
   bool StartFrom(Joints* joints, int place, const JointRows& joint, GroupProblem* group);
@@ -67,10 +77,9 @@ class JointMemory {
   float lever_ = 1;                ///< What products of levers count beside those of directions.
   std::vector<btScalar> applied_;  ///< of the present joints, by place
   Joints last_;                    ///< those of the last group
-  Joints asleep_;                  ///< those that have been in no group since
-  std::int64_t fell_asleep_ = 0;   ///< how many ever have
-  std::int64_t groups_ = 0;        ///< so far, with the present one
-  bool kept_ = false;              ///< the present group was
+  Asleep asleep_;
+  std::int64_t groups_ = 0;  ///< so far, with the present one
+  bool kept_ = false;        ///< the present group was
 };
 
 }  // namespace CAIRN_BULLET_PRECISION

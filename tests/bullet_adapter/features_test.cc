@@ -4,16 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <BulletCollision/CollisionDispatch/btSimulationIslandManager.h>
+#include <cfenv>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cairn/bullet/constraint_solver.h"
 #include "scenes/facts.h"
 #include "scenes/world.h"
+#include "tests/bullet_adapter/scene_world.h"
 #include "tests/core/support/test_clock.h"
 
 namespace cairn::test {
@@ -570,6 +573,22 @@ TEST(Features, WorksWithIslandsSwitchedOff) {
 TEST(Features, IsTakenForASequentialImpulseSolver) {
   bullet::ConstraintSolver solver;
   EXPECT_EQ(solver.getSolverType(), BT_SEQUENTIAL_IMPULSE_SOLVER);
+}
+
+// Debug builds of games let exceptions of floating point end the program.
+TEST(Features, RaisesNoExceptionsOfFloatingPoint) {
+  constexpr int kExceptions = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  for (const std::string_view name : SceneNames()) {
+    bullet::ConstraintSolver solver;
+    SceneWorld scene(name, &solver);
+    int raised = 0;
+    for (int frame = 0; frame < 30; ++frame) {
+      std::feclearexcept(kExceptions);
+      scene.Step(1);
+      raised |= std::fetestexcept(kExceptions);
+    }
+    EXPECT_EQ(raised, 0) << name;
+  }
 }
 
 }  // namespace

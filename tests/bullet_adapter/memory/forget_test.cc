@@ -3,6 +3,10 @@
 #include <btBulletDynamicsCommon.h>
 #include <gtest/gtest.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <memory>
 #include <new>
 #include <vector>
@@ -19,13 +23,13 @@ using bench::ConnectedBodies;
 using bench::World;
 
 /// Six light links under half a ton: their inertia is raised.
-std::vector<btRigidBody*> HangWeight(World* world) {
+std::vector<btRigidBody*> HangWeight(World* world, btScalar x = 0) {
   std::vector<btRigidBody*> links;
   const btScalar half = btScalar(0.1);
   for (int i = 0; i < 6; ++i) {
     btRigidBody* const link =
         world->AddBox({btScalar(0.02), half, btScalar(0.02)},
-                      {.mass = half, .pose = At(0, -2 * half * btScalar(i), 0), .surface = {}});
+                      {.mass = half, .pose = At(x, -2 * half * btScalar(i), 0), .surface = {}});
     auto joint = i == 0 ? std::make_unique<btPoint2PointConstraint>(*link, btVector3(0, half, 0))
                         : std::make_unique<btPoint2PointConstraint>(
                               *links.back(), *link, btVector3(0, -half, 0), btVector3(0, half, 0));
@@ -33,7 +37,7 @@ std::vector<btRigidBody*> HangWeight(World* world) {
     links.push_back(link);
   }
   btRigidBody* const weight = world->AddBox(
-      btVector3(1, 1, 1) / 2, {.mass = 500, .pose = At(0, btScalar(-1.6), 0), .surface = {}});
+      btVector3(1, 1, 1) / 2, {.mass = 500, .pose = At(x, btScalar(-1.6), 0), .surface = {}});
   world->AddJoint(
       std::make_unique<btPoint2PointConstraint>(*links.back(), *weight, btVector3(0, -half, 0),
                                                 btVector3(0, btScalar(0.5), 0)),
@@ -155,6 +159,24 @@ std::vector<btScalar> HeightsBesideNewWalls(int threads) {
 TEST(BodyTable, GrowsWhileManifoldsAreReadOnThreads) {
   EXPECT_EQ(HeightsBesideNewWalls(2), HeightsBesideNewWalls(1));
 }
+
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+TEST(Reset, GivesMemoryBack) {
+  const auto in_use = [] { return static_cast<double>(mallinfo2().uordblks); };
+  auto solver = std::make_unique<bullet::ConstraintSolver>();
+  {
+    World world(solver.get());
+    for (int i = 0; i < 30; ++i) HangWeight(&world, 5 * i);
+    for (int i = 0; i < 30; ++i) world.Step();
+  }
+  const double full = in_use();
+  solver->reset();
+  const double empty = in_use();
+  solver.reset();
+  const double none = in_use();
+  EXPECT_LE(empty - none, 0.05 * (full - none));
+}
+#endif
 
 }  // namespace
 }  // namespace cairn::test
