@@ -14,7 +14,7 @@
 #include "cycle/corrections.h"
 #include "cycle/quiet_bodies.h"
 #include "cycle/substeps.h"
-#include "cycle/tension.h"
+#include "cycle/tension/tension.h"
 #include "problem/contact_expansion.h"
 #include "problem/islands.h"
 #include "problem/relaxation.h"

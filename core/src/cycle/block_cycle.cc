@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "cairn/detail/spans.h"
-#include "simd/flush_denormals.h"
 #include "sweep/settle_friction.h"
 
 namespace cairn {
@@ -52,7 +51,8 @@ void BlockCycle::Begin() {
   const Plan& plan = frame_->plan();
   islands_.Begin(plan, steps_.asked() ? NoStep::kEnded : NoStep::kNotAsked);
   planner_.Begin(*frame_, &steps_, &islands_);
-  trials_.Begin(*frame_, {&steps_, &planner_, &islands_, sweeps_, &nncg_});
+  cycle_sweeps_.Begin(*frame_, sweeps_, &islands_, &nncg_);
+  trials_.Begin(*frame_, {&steps_, &planner_, &islands_, sweeps_, &cycle_sweeps_, &nncg_});
   chosen_.Begin(plan);
   Residual none;
   none.energy = kInfinity;
@@ -158,7 +158,8 @@ void BlockCycle::Round() {
                      : std::min(frame_->sweeps_of_round(), settings.max_sweeps - before));
   for (bool whole = true; whole && islands_.active() && islands_.SweepsMade() < end;) {
     const int unseen = UnseenAfter(islands_.SweepsMade());
-    whole = Sweep(std::min(end - islands_.SweepsMade(), unseen));
+    whole = cycle_sweeps_.Sweep(std::min(end - islands_.SweepsMade(), unseen), islands_.groups(),
+                                CycleSweeps::Steps::kIn);
     const int made = islands_.SweepsMade();
     if (whole && made == 1) MarkStart();
     if (whole && made <= kGuardedSweep) GuardStart(made);
@@ -174,87 +175,6 @@ void BlockCycle::Round() {
 void BlockCycle::MarkStart() {
   started_ = true;
   for (int i = 0; i < islands_.count(); ++i) islands_.report(i).residual_before = islands_[i].seen;
-}
-
-bool BlockCycle::Sweep(int count) {
-  if (!frame_->accelerates()) {
-    const bool whole = sweeps_->Sweep(count, islands_.groups());
-    if (whole) islands_.See(islands_.groups(), sweeps_);
-    return whole;
-  }
-  if (sweeps_->InOneGo()) {
-    SweepGroupByGroup(count);
-    return true;
-  }
-  for (bool whole = true; count > 0; --count) {
-    if (MoveOn()) {
-      sweeps_->SweepWhole(islands_.groups());
-    } else {
-      whole = sweeps_->Sweep(1, islands_.groups());
-    }
-    if (!whole) return false;
-    sweeps_->ErrorsOfIslands(islands_.groups(), islands_.sights(), [this](int g) {
-      islands_.See(g);
-      LearnDirections(g);
-    });
-  }
-  return true;
-}
-
-void BlockCycle::SweepGroupByGroup(int count) {
-  const Plan& plan = frame_->plan();
-  // one for all kernels; clocks of others do not get to see it
-  const simd::FlushDenormals flush;
-  const bool moves = AnyMoves();
-  const bool starts = moves && nncg_.StartsFrom(frame_->blocks->blocks(), frame_->crew);
-  const double rows = islands_.ActiveRows();
-  for (int g = 0; g < static_cast<int>(plan.groups().size()); ++g) {
-    GroupSweeps& group = islands_.groups()[g];
-    if (!group.active) continue;
-    for (int k = 0; k < count; ++k) {
-      const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kSweep, group.sweeps});
-      if (moves && !(starts && k == 0)) nncg_.MoveGroupOn(plan.groups()[g], frame_->blocks);
-      sweeps_->SweepGroup(g, group.sweeps++);
-      sweeps_->ErrorsOfGroup(plan.groups()[g], islands_.sights());
-      LearnDirections(g);
-    }
-    islands_.See(g);
-  }
-  for (int k = 0; k < count; ++k) {
-    if (moves) frame_->meter->Charge(WorkKind::kSweep, Nncg::kSweeps * rows);
-    frame_->meter->Charge(WorkKind::kSweep, rows);
-  }
-}
-
-void BlockCycle::LearnDirections(int group) {
-  for (const int i : frame_->plan().islands_in(frame_->plan().groups()[group])) {
-    // what a step leaves behind is rough, and wants to be smoothed, not carried on
-    if (islands_[i].stepped()) {
-      nncg_.Forget(i);
-    } else {
-      nncg_.See(i, islands_.last_seen(i).energy);
-    }
-  }
-  nncg_.ForgetWhereRowsEnd(group, islands_.groups()[group].sweeps);
-}
-
-bool BlockCycle::AnyMoves() const {
-  const std::span<const IslandProgress> states = islands_.states();
-  return !std::all_of(states.begin(), states.end(), [](const auto& i) { return i.stepped(); });
-}
-
-bool BlockCycle::MoveOn() {
-  if (!AnyMoves()) return false;
-  BudgetMeter& meter = *frame_->meter;
-  const double rows = islands_.ActiveRows();
-  if (!meter.Fits(0, (1 + Nncg::kSweeps) * rows)) {
-    nncg_.ForgetAll();
-    return false;
-  }
-  meter.Begin();
-  nncg_.MoveOn(islands_.groups(), frame_->crew, frame_->blocks);
-  meter.Charge(WorkKind::kSweep, Nncg::kSweeps * rows);
-  return true;
 }
 
 void BlockCycle::JudgeIslands(bool seen) {

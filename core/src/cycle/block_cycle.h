@@ -6,6 +6,7 @@
 #include "cycle/block_steps.h"
 #include "cycle/cycle_frame.h"
 #include "cycle/cycle_islands.h"
+#include "cycle/cycle_sweeps.h"
 #include "cycle/step_planner.h"
 #include "cycle/step_trials.h"
 #include "pack/block_snapshot.h"
@@ -45,16 +46,6 @@ class BlockCycle {
   void SettleFriction();
   bool Settles(int island) const;
   void Round();
-  /// Makes so many sweeps, unless the budget ends before. The last one is seen.
-  bool Sweep(int count);
-  /// Makes accelerated sweeps, each group all of them before the next: it stays in the cache.
-  void SweepGroupByGroup(int count);
-  /// Some island is not stepped: its state may move on.
-  bool AnyMoves() const;
-  /// Moves the state on for one sweep, where that still fits.
-  bool MoveOn();
-  /// From what the last sweep of an active group saw.
-  void LearnDirections(int group);
   /// Takes down what the first sweep saw.
   void MarkStart();
   void JudgeIslands(bool seen);
@@ -77,6 +68,7 @@ class BlockCycle {
   StepPlanner planner_;
   StepTrials trials_;
   Nncg nncg_;
+  CycleSweeps cycle_sweeps_;
 
   GroupChoice chosen_;
   Array<Residual> after_;  ///< by island: of the present state

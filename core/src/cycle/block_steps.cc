@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "cycle/joint_arms.h"
+#include "cycle/tension/joint_arms.h"
 #include "problem/body_name.h"
 
 namespace cairn {

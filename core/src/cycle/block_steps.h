@@ -65,10 +65,21 @@ class BlockSteps {
   }
   /// Body::strain from which on nothing but raised inertia keeps the integrator stable.
   static constexpr double kUnstable = 4;
+  /// From which on joints pull a lot. From half of it on dolls would be a fifth dearer.
+  static constexpr double kStrained = 1;
   /// The largest Body::strain on an island, while steps are weighed; else 0.
   double strain(int island) const { return strains_.empty() ? 0 : strains_[island]; }
   /// Likewise, whether a joint there holds a body and one that is a hundred times lighter.
   bool IsLoaded(int island) const { return !loaded_.empty() && loaded_[island] != 0; }
+  /// There sweeps leave joints that part before they pull: steps are taken whatever they cost in
+  /// terms of row by row.
+  bool IsStrained(int island) const { return strain(island) > kStrained || IsLoaded(island); }
+  /// And there whatever they gain, too: raised inertia needs a tension that is right in each frame,
+  /// and sweeps lose it within few; where a load wakes up, they let it fall before steps are known
+  /// to pay.
+  bool IsNeeded(int island) {
+    return strain(island) > kUnstable || (IsStrained(island) && odds(island).is_young());
+  }
   /// How many factorisations the next step on an island may make.
   void Limit(int island, int factorisations) { limits_[island] = factorisations; }
   /// Takes a step on some islands of a group.

@@ -5,7 +5,6 @@
 #include <utility>
 
 namespace cairn {
-namespace {
 
 double RowsOf(const Plan& plan, std::span<const GroupSweeps> groups) {
   double rows = 0;
@@ -14,8 +13,6 @@ double RowsOf(const Plan& plan, std::span<const GroupSweeps> groups) {
   }
   return rows;
 }
-
-}  // namespace
 
 void SweepRun::Begin(int first, int sweeps_made, double energy) {
   begin = first;

@@ -25,6 +25,9 @@ struct SweepRun {
   void See(int sweeps_made, double energy);
 };
 
+/// Rows of the groups that are active.
+double RowsOf(const Plan& plan, std::span<const GroupSweeps> groups);
+
 /// Where an island is between two decisions:
 ///
 ///   sweeping --Step()--> stepped --Judge()--> judged --MayStep()--> sweeping

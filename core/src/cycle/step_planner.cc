@@ -23,10 +23,6 @@ constexpr double kMostOfScalarWithMore = 1, kMostOfScalarWithMoreStrained = 2;
 /// By so much more where there was a step of late, since steps that come and go do harm, and where
 /// joints pull. Without joints that is for one factorisation.
 constexpr double kMoreOnceStepped = 1.5;
-/// From which Body::strain on, and where a joint holds a load, sweeps leave joints that part before
-/// they pull: steps are taken whatever they cost in terms of row by row. From half of it on dolls
-/// would be a fifth dearer.
-constexpr double kStrained = 1;
 /// Within so many tolerances sweeps do the rest.
 constexpr double kNear = 10;
 /// Error of joints that a step meets at most where there was none in the last frame [m/s]. What
@@ -148,12 +144,10 @@ NoStep StepPlanner::Weigh(int g, int i) {
   const bool near = IsWithin(seen, kNear * frame_->settings.tolerance, unit);
   // what sweeps have left joints open by for long, a single step would throw
   const int bodies = frame_->plan().islands()[i].bodies;
-  const bool strained = steps_->strain(i) > kStrained || steps_->IsLoaded(i);
+  const bool strained = steps_->IsStrained(i);
   const bool thrown = joints && !odds.stepped_most(bodies) &&
                       seen.max > unit * (strained ? kMostThrownStrained : kMostThrown);
-  // raised inertia needs a tension that is right in each frame, and sweeps lose it within few
-  const bool needed = steps_->strain(i) > BlockSteps::kUnstable;
-  const bool pays = needed || odds.pays() || odds.wants_trial();
+  const bool pays = steps_->IsNeeded(i) || odds.pays() || odds.wants_trial();
   if (near || thrown || !pays) return NoStep::kSweepsFaster;
   const int sweeps = frame_->settings.max_sweeps;
   const double of_scalar = joints ? kMostOfScalarWithJoints : kMostOfScalar;
@@ -230,7 +224,8 @@ int StepPlanner::SweepsInPlace(int island) const {
 }
 
 int StepPlanner::MostSweeps(int island) const {
-  return islands_->StepsTaken(island) > 0 ? frame_->settings.max_sweeps : SweepsInPlace(island);
+  const bool stepped = islands_->report(island).steps_accepted > 0;
+  return stepped ? frame_->settings.max_sweeps : SweepsInPlace(island);
 }
 
 void StepPlanner::Learn() {

@@ -57,7 +57,15 @@ void StepTrials::Take(std::span<const int> islands) {
 
 void StepTrials::TakeOfGroup(int group, std::span<const int> islands) {
   BlockSteps& steps = *parts_.steps;
-  for (int i : islands) before_steps_.Take(frame_->plan(), i, *frame_->data());
+  const Plan& plan = frame_->plan();
+  if (GoesOnAlone()) {
+    // in the lanes of all who share them
+    for (int i : plan.islands_in(plan.groups()[group]))
+      before_steps_.Take(plan, i, *frame_->data());
+    parts_.nncg->Keep(plan, plan.groups()[group]);
+  } else {
+    for (int i : islands) before_steps_.Take(plan, i, *frame_->data());
+  }
   steps.Take(group, islands);
   for (int i : islands) {
     parts_.nncg->Forget(i);
@@ -160,8 +168,6 @@ void StepTrials::Note(int i, int sweeps) {
   if (accepted) {
     islands[i].run.Begin(islands.SweepsMade() - sweeps, islands.SweepsMade(),
                          islands[i].seen.energy);
-  } else {
-    parts_.nncg->Forget(i);
   }
   if (verdicts_[i] == Verdict::kHarmful) {
     report.guards.step = true;
@@ -176,9 +182,10 @@ void StepTrials::LearnGains(int i) {
   BlockSteps& steps = *parts_.steps;
   StepOdds& odds = steps.odds(i);
   const bool paid = odds.pays();
-  odds.LearnGains(GainOfStep(i), GainAlone(i), steps.SizeOf(i));
+  const bool needed = steps.IsNeeded(i);
+  odds.LearnGains(GainOfStep(i), GainAlone(i), steps.SizeOf(i), needed);
   if (!frame_->weighs_steps() || verdicts_[i] != Verdict::kKept) return;
-  const bool goes_on = paid || odds.pays() || steps.strain(i) > BlockSteps::kUnstable;
+  const bool goes_on = paid || odds.pays() || needed;
   if (!goes_on) verdicts_[i] = Verdict::kBetterAlone;
 }
 
@@ -193,6 +200,7 @@ void StepTrials::CompareWithBefore() {
     if (verdicts_[i] == Verdict::kKept) continue;
     before_steps_.Restore(frame_->plan(), i, frame_->data());
   }
+  for (int i : stepped_) parts_.nncg->Forget(i);
 }
 
 void StepTrials::TryAlone(int sweeps) {
@@ -206,9 +214,7 @@ void StepTrials::TryAlone(int sweeps) {
     seen_with_step_[i] = islands[i].seen;
     if (islands[i].stepped()) before_steps_.Restore(plan, i, frame_->data());
   }
-  for (size_t g = 0; g < chosen_.groups().size(); ++g) {
-    chosen_.groups()[g].sweeps = std::max(0, islands.groups()[g].sweeps - sweeps);
-  }
+  RewindSweeps(sweeps);
   SetJudgingAside();
   if (parts_.sweeps->Sweep(sweeps, chosen_.groups()) && sweeps > 0) {
     islands.See(chosen_.groups(), parts_.sweeps);
@@ -223,9 +229,45 @@ void StepTrials::TryAlone(int sweeps) {
       if (frame_->learns()) LearnGains(i);
       if (verdicts_[i] != Verdict::kKept) continue;
     }
-    islands[i].seen = seen_with_step_[i];
-    after_steps_.Restore(plan, i, frame_->data());
+    KeepAsAfterSteps(i);
   }
+  if (GoesOnAlone()) return GoOnAlone(sweeps);
+  for (int i : stepped_) parts_.nncg->Forget(i);
+}
+
+bool StepTrials::GoesOnAlone() const { return frame_->accelerates() && !frame_->meter->limited(); }
+
+void StepTrials::GoOnAlone(int sweeps) {
+  const Plan& plan = frame_->plan();
+  CycleIslands& islands = *parts_.islands;
+  chosen_.Clear();
+  for (int i : stepped_) {
+    if (verdicts_[i] != Verdict::kKept) chosen_.Add(i);
+  }
+  for (int i = 0; i < islands.count(); ++i) {
+    if (chosen_.Has(i)) before_steps_.Restore(plan, i, frame_->data());
+  }
+  for (size_t g = 0; g < chosen_.groups().size(); ++g) {
+    if (chosen_.groups()[g].active) parts_.nncg->GoBack(plan, plan.groups()[g]);
+  }
+  RewindSweeps(sweeps);
+  parts_.cycle_sweeps->Sweep(sweeps, chosen_.groups(), CycleSweeps::Steps::kUndone);
+  for (int i = 0; i < islands.count(); ++i) {
+    const bool stepped = islands[i].stepped(), kept = verdicts_[i] == Verdict::kKept;
+    if (stepped && kept) parts_.nncg->Forget(i);
+    if (chosen_.Has(i) && !(stepped && !kept)) KeepAsAfterSteps(i);
+  }
+}
+
+void StepTrials::RewindSweeps(int sweeps) {
+  for (size_t g = 0; g < chosen_.groups().size(); ++g) {
+    chosen_.groups()[g].sweeps = std::max(0, parts_.islands->groups()[g].sweeps - sweeps);
+  }
+}
+
+void StepTrials::KeepAsAfterSteps(int island) {
+  (*parts_.islands)[island].seen = seen_with_step_[island];
+  after_steps_.Restore(frame_->plan(), island, frame_->data());
 }
 
 }  // namespace cairn

@@ -8,6 +8,7 @@
 #include "cycle/block_steps.h"
 #include "cycle/cycle_frame.h"
 #include "cycle/cycle_islands.h"
+#include "cycle/cycle_sweeps.h"
 #include "cycle/step_planner.h"
 #include "pack/block_snapshot.h"
 #include "step/merit.h"
@@ -26,6 +27,7 @@ class StepTrials {
     StepPlanner* planner;
     CycleIslands* islands;
     BlockSweeps* sweeps;
+    CycleSweeps* cycle_sweeps;
     Nncg* nncg;
   };
   void Begin(const CycleFrame& frame, const Parts& parts);
@@ -60,8 +62,16 @@ class StepTrials {
   double GainOfStep(int island) const;
   double GainAlone(int island) const;
   /// Makes as many sweeps from before the steps on the islands that are chosen, and keeps the
-  /// better state of each.
+  /// better state of each. They are plain: accelerated ones come closer in each frame, but towers
+  /// lean by what they leave.
   void TryAlone(int sweeps);
+  /// Without a budget, and where sweeps are accelerated, what is undone leaves no trace.
+  bool GoesOnAlone() const;
+  /// Makes the sweeps that would have been made without the steps that are not kept.
+  void GoOnAlone(int sweeps);
+  /// Groups that are chosen were swept so many times less.
+  void RewindSweeps(int sweeps);
+  void KeepAsAfterSteps(int island);
   /// There is no time for that: what is no better than before the step is undone.
   void CompareWithBefore();
   /// What became of a step, for all that learn from it.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cairn/detail/eigen.h"
-#include "cycle/joint_arms.h"
+#include "cycle/tension/joint_arms.h"
 #include "problem/float_vectors.h"
 
 namespace cairn {

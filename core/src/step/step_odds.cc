@@ -70,7 +70,7 @@ void StepOdds::LearnStep(int steps, double share) {
   Learn(std::clamp(-Log(share), -kMostCut, kMostCut), &cut.known, &cut.cut);
 }
 
-void StepOdds::LearnGains(double with_step, double alone, Size size) {
+void StepOdds::LearnGains(double with_step, double alone, Size size, bool needed) {
   carries_ = with_step > kCarries * alone;
   const double ratio = with_step <= kLeastRatio * std::max(alone, 0.0) ? kLeastRatio
                        : with_step >= kMostRatio * alone               ? kMostRatio
@@ -78,7 +78,7 @@ void StepOdds::LearnGains(double with_step, double alone, Size size) {
   const bool first = trials_ == 0;
   if (trials_ < kEqualTrials) ++trials_;
   ratio_ += (Log(ratio) - ratio_) / trials_;
-  const bool goes_on = pays_ && !first;
+  const bool goes_on = (pays_ && !first) || needed;
   const bool small = size != Size::kMany, tiny = size == Size::kFewest && stays_rough();
   const double begins = tiny ? kTinyBegins : small ? kSmallBegins : kBegins;
   const double least = !goes_on ? begins : tiny ? kTinyGoesOn : small ? kSmallGoesOn : kGoesOn;
@@ -101,7 +101,7 @@ void StepOdds::EndFrame(int stepped_bodies, double error, double time_step) {
     gross_frames_ = pace_ * error > kGross ? std::min(gross_frames_ + 1, kGrossFrames) : 0;
     rough_frames_ = error > kRough ? std::min(rough_frames_ + 1, kRoughFrames) : 0;
   }
-  is_new_ = false;
+  frames_ = std::min(frames_ + 1, kYoung);
   ++age_;
   ++trial_age_;
   stepped_bodies_ = stepped_bodies;

@@ -31,7 +31,8 @@ class StepOdds {
   void LearnStep(int steps, double share);
   /// By how much a step and the sweeps after it, and as many sweeps alone, brought the island
   /// closer in energy [J]: residuals say little of that after a step, which leaves them rough.
-  void LearnGains(double with_step, double alone, Size size = Size::kMany);
+  /// @param needed  steps are taken there anyway: those that follow go on with them
+  void LearnGains(double with_step, double alone, Size size = Size::kMany, bool needed = false);
   /// Without a budget: a step brings phi down by more than so many times what the sweeps in its
   /// place do, or that is not known yet.
   bool pays() const { return pays_; }
@@ -59,7 +60,10 @@ class StepOdds {
   /// The last half a second ended with errors that one sees: what rests goes on rocking.
   bool stays_rough() const { return rough_frames_ >= kRoughFrames; }
   /// No frame of the island has ended.
-  bool is_new() const { return is_new_; }
+  bool is_new() const { return frames_ == 0; }
+  /// A few have, and what was learnt in them says little: of what wakes up, gravity is on some
+  /// bodies alone in the first one.
+  bool is_young() const { return frames_ < kYoung; }
   /// Sweeps were not measured for long: a frame without steps is due.
   bool stale() const;
 
@@ -84,8 +88,9 @@ class StepOdds {
 
   static constexpr int kLate = 60;
   static constexpr int kGrossFrames = 4, kRoughFrames = 30;
+  static constexpr int kYoung = 8;
 
-  bool is_new_ = true;
+  int frames_ = 0;  ///< that have ended, at most kYoung
   bool carries_ = false;
   bool pays_ = true;
   int stepped_bodies_ = 0, frames_without_ = kLate;

@@ -58,8 +58,8 @@ class Nncg::Pass final : public StagedWork {
 };
 
 void Nncg::Begin(const BlockFrame& frame) {
-  momenta_.assign(frame.plan().islands().size() + 1, {});
-  energies_.assign(frame.plan().islands().size(), 0);
+  now_.momenta.assign(frame.plan().islands().size() + 1, {});
+  now_.energies.assign(frame.plan().islands().size(), 0);
   known_ = false;
   if (plan_number_ == frame.plan_number()) return;
   plan_number_ = frame.plan_number();
@@ -106,16 +106,41 @@ void Nncg::ForgetWhereRowsEnd(int group, int sweeps) {
 
 void Nncg::Forget(int island) {
   MomentumOf(island) = {};
-  energies_[island] = 0;
+  now_.energies[island] = 0;
 }
 
 void Nncg::ForgetAll() {
-  std::fill(momenta_.begin(), momenta_.end(), simd::Momentum{});
-  std::fill(energies_.begin(), energies_.end(), 0);
+  std::fill(now_.momenta.begin(), now_.momenta.end(), simd::Momentum{});
+  std::fill(now_.energies.begin(), now_.energies.end(), 0);
+}
+
+void Nncg::Copy(const Plan& plan, const Group& group, const Course& from, Course* to) {
+  const auto copy = [](const auto& some, int first, int count, auto* others) {
+    if (others->size() < some.size()) others->resize(some.size());
+    std::copy_n(some.begin() + first, count, others->begin() + first);
+  };
+  for (const int i : plan.islands_in(group)) {
+    copy(from.momenta, i + 1, 1, &to->momenta);
+    copy(from.energies, i, 1, &to->energies);
+  }
+  copy(from.last.x, group.first_x, group.x_lines, &to->last.x);
+  copy(from.direction.x, group.first_x, group.x_lines, &to->direction.x);
+  copy(from.last.bodies, group.first_slot, group.slots, &to->last.bodies);
+  copy(from.direction.bodies, group.first_slot, group.slots, &to->direction.bodies);
+}
+
+void Nncg::Keep(const Plan& plan, const Group& group) {
+  kept_known_ = known_;
+  if (known_) Copy(plan, group, now_, &kept_);
+}
+
+void Nncg::GoBack(const Plan& plan, const Group& group) {
+  if (kept_known_) return Copy(plan, group, kept_, &now_);
+  for (const int i : plan.islands_in(group)) Forget(i);
 }
 
 void Nncg::See(int island, double energy) {
-  const double before = std::exchange(energies_[island], energy);
+  const double before = std::exchange(now_.energies[island], energy);
   const double ratio = before == 0 ? 0 : energy / before;
   const bool shrinks = ratio <= 1;
   MomentumOf(island) = {.beta = shrinks ? static_cast<float>(ratio * ratio) : 0,
@@ -137,12 +162,12 @@ void Nncg::Remember(const BlockData& now, Crew* crew) {
     };
     InParts(static_cast<int>(from.size()), kLinesOfPart, crew, part, {SpanKind::kSweep, 0, -1});
   };
-  make_room(now.x.size(), &last_.x);
-  make_room(now.x.size(), &direction_.x);
-  make_room(now.bodies.size(), &last_.bodies);
-  make_room(now.bodies.size(), &direction_.bodies);
-  copy(now.x, &last_.x, &direction_.x);
-  copy(now.bodies, &last_.bodies, &direction_.bodies);
+  make_room(now.x.size(), &now_.last.x);
+  make_room(now.x.size(), &now_.direction.x);
+  make_room(now.bodies.size(), &now_.last.bodies);
+  make_room(now.bodies.size(), &now_.direction.bodies);
+  copy(now.x, &now_.last.x, &now_.direction.x);
+  copy(now.bodies, &now_.last.bodies, &now_.direction.bodies);
 }
 
 bool Nncg::StartsFrom(const BlockData& now, Crew* crew) {
@@ -156,14 +181,14 @@ void Nncg::MoveImpulses(int first_block, int blocks, BlockFrame* frame) {
   const Plan& plan = frame->plan();
   frame->lane_kernels().move_blocks(
       &MomentumOf(0), &plan.blocks()[first_block], plan.islands_of(first_block), blocks,
-      {frame->blocks().x.data(), last_.x.data(), direction_.x.data()});
+      {frame->blocks().x.data(), now_.last.x.data(), now_.direction.x.data()});
 }
 
 void Nncg::MoveBodies(const Group& group, BlockFrame* frame) {
   const auto of_group = [&](auto& bodies) { return bodies.data() + group.first_slot; };
-  frame->lane_kernels().move_bodies(
-      &MomentumOf(0), of_group(island_of_slot_), group.slots,
-      {of_group(frame->blocks().bodies), of_group(last_.bodies), of_group(direction_.bodies)});
+  frame->lane_kernels().move_bodies(&MomentumOf(0), of_group(island_of_slot_), group.slots,
+                                    {of_group(frame->blocks().bodies), of_group(now_.last.bodies),
+                                     of_group(now_.direction.bodies)});
 }
 
 void Nncg::MoveGroupOn(const Group& group, BlockFrame* frame) {

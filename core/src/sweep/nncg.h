@@ -31,6 +31,10 @@ class Nncg {
   /// not to be moved, as no sweep would bring them back into their bounds.
   void ForgetWhereRowsEnd(int group, int sweeps);
   void ForgetAll();
+  /// Keeps the directions of a group, until the next Keep() of it.
+  void Keep(const Plan& plan, const Group& group);
+  /// Its islands go on along those that were kept.
+  void GoBack(const Plan& plan, const Group& group);
   /// What the last sweep changed on an island [sqrt(J)], see Residual::energy.
   void See(int island, double energy);
   /// Whether no state of this frame was known, and this one is the first: it has no direction yet.
@@ -47,17 +51,21 @@ class Nncg {
   void FindEnds(const Plan& plan);
   void MoveImpulses(int first_block, int blocks, BlockFrame* frame);
   void MoveBodies(const Group& group, BlockFrame* frame);
-  simd::Momentum& MomentumOf(int island) { return momenta_[static_cast<size_t>(island) + 1]; }
+  simd::Momentum& MomentumOf(int island) { return now_.momenta[static_cast<size_t>(island) + 1]; }
   /// One number for each part of the state.
   struct State {
     Array<simd::Line> x;
     Array<simd::BodyLane> bodies;
   };
+  /// Where islands were before the last sweep, and how they go on.
+  struct Course {
+    /// Along their directions; the first one is of what belongs to none, and does not move.
+    Array<simd::Momentum> momenta;
+    Array<double> energies;  ///< by island, of the last sweep; 0 if there was none
+    State last, direction;
+  };
+  static void Copy(const Plan& plan, const Group& group, const Course& from, Course* to);
 
-  /// How islands go on along their directions; the first one is of what belongs to none, and does
-  /// not move.
-  Array<simd::Momentum> momenta_;
-  Array<double> energies_;  ///< by island, of the last sweep; 0 if there was none
   Array<int> island_of_slot_;
   /// Rows of an island do not take part in further sweeps than that.
   struct End {
@@ -67,8 +75,8 @@ class Nncg {
   Array<End> ends_;        ///< of the plan
   Array<int> newest_end_;  ///< by island, while ends are looked for
   int plan_number_ = -1;
-  bool known_ = false;  ///< last_ is a state of this frame
-  State last_, direction_;
+  bool known_ = false, kept_known_ = false;  ///< `last` of each is a state of this frame
+  Course now_, kept_;
 };
 
 }  // namespace cairn

@@ -158,6 +158,36 @@ TEST(Wake, OfOneOfTwoRopesIsWithoutAJerk) {
   EXPECT_LT(most, 1.3);
 }
 
+// Nor do others that fell asleep or were removed since, as in a world that is streamed.
+TEST(Wake, OfARopeAmongMany) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  world.LetSleep();
+  std::vector<std::unique_ptr<Rope>> ropes;
+  const auto let_sleep = [&](Rope* rope) {
+    for (int i = 0; i < 600 && rope->bodies.back()->isActive(); ++i) world.Step();
+    ASSERT_FALSE(rope->bodies.back()->isActive());
+  };
+  for (int i = 0; i < 24; ++i) ropes.push_back(std::make_unique<Rope>(&world, 10, 2 * i));
+  for (const auto& rope : ropes) let_sleep(rope.get());
+  for (int i = 8; i < 16; ++i) {
+    for (btRigidBody* body : ropes[i]->bodies) world.Remove(body);
+    world.Step();
+  }
+  for (int i = 16; i < 24; ++i) {
+    ropes[i]->bodies.back()->activate(true);
+    world.Step();
+    let_sleep(ropes[i].get());
+  }
+  for (const int i : {0, 7, 16, 23}) {
+    ropes[i]->bodies.back()->activate(true);
+    world.Step();
+    const auto [least, most] = ropes[i]->PullOf(60);
+    EXPECT_GT(least, 0.9) << i;
+    EXPECT_LT(most, 1.1) << i;
+  }
+}
+
 // Steps of the one were taken for those of the other, and its contacts began four times too strong.
 TEST(SharedSolver, LeavesATowerAtRestBesideAWorldOfShorterSteps) {
   bullet::ConstraintSolver solver;

@@ -113,12 +113,14 @@ TEST(SentState, LeadsToTheSameBits) {
   ExpectSameSteps(&here, &there);
 }
 
+// Once in some hundred steps a step of the solver was kept that was 8 J further from the solution,
+// for a residual that was a quarter less. It threw the bridge at 0.5 m/s.
 TEST(SavedState, MayBeTakenInEachStep) {
   LoadedBridge bridge;
   for (int i = 0; i < 1200; ++i) bridge.StepDamped();
   double fastest = 0;
   int quiet = 0;
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     Saved now;
     Save(&bridge, &now);
     bridge.Step();
@@ -126,7 +128,7 @@ TEST(SavedState, MayBeTakenInEachStep) {
     quiet = bridge.world.report.islands[0].quiet;
   }
   EXPECT_LE(fastest, 0.02);
-  EXPECT_GE(quiet, 120) << "it falls asleep";
+  EXPECT_GE(quiet, 1000) << "it falls asleep";
 }
 
 }  // namespace

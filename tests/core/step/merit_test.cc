@@ -151,6 +151,10 @@ TEST(StepTrial, IsWonByWhatIsLessRoughOrSurelyCloser) {
   EXPECT_FALSE(alone_is_better(0.14, 0.03, 1.1, true));
   EXPECT_TRUE(alone_is_better(0.14, 0.03, 1.1, false)) << "joints that contradict each other?";
   EXPECT_TRUE(alone_is_better(0.14, 0.03, 0.1, true));
+  // a bridge at rest that a step throws: a little less rough, and far behind
+  EXPECT_TRUE(alone_is_better(7e-4, 1e-3, -7.6, true));
+  EXPECT_FALSE(alone_is_better(7e-4, 1e-3, -1e-6, true));
+  EXPECT_FALSE(alone_is_better(7e-4, 1e-3, -7.6, false));
   EXPECT_TRUE(alone_is_better(std::nan(""), 0.1, 1));
   EXPECT_TRUE(alone_is_better(0.2, 0.1, std::nan("")));
 }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cairn/detail/eigen.h"
-#include "cycle/joint_arms.h"
+#include "cycle/tension/joint_arms.h"
 #include "problem/body_name.h"
 #include "problem/islands.h"
 #include "simd/flush_denormals.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cycle/tension.h"
+#include "cycle/tension/tension.h"
 
 #include <algorithm>
 #include <new>
