@@ -22,6 +22,7 @@ template struct MemberOf<&btRigidBody::m_debugBodyId>;
 int NumberOf(const btRigidBody& body) { return body.*NumberMember(); }
 
 void BodyNames::BeginSubstep() {
+  ++substep_;
   for (const int number : displaced_) {
     const auto found = by_number_.find(number);
     if (found == by_number_.end()) continue;
@@ -39,11 +40,13 @@ void BodyNames::Enter(int place, const btRigidBody& body) {
   Place& there = places_[at];
   if (there.name != 0 && there.number != number) displaced_.push_back(there.number);
   const auto known = at_end ? by_number_.end() : by_number_.find(number);
-  std::uint64_t name = known == by_number_.end() ? 0 : known->second.name;
-  if (name == 0) name = (std::uint64_t{there.given++} << 32) | (static_cast<std::uint64_t>(at) + 1);
-  there.name = name;
+  // Bullet counts without a lock: where worlds are made on several threads, two bodies may have one
+  // number, and both are met in their first substep
+  const bool was_here = known != by_number_.end() && known->second.since != substep_;
+  there.name = was_here ? known->second.name
+                        : (std::uint64_t{there.given++} << 32) | (std::uint64_t{at} + 1);
   there.number = number;
-  by_number_.insert_or_assign(number, Named{name, place});
+  by_number_.insert_or_assign(number, Named{there.name, place, substep_});
 }
 
 void BodyNames::Forget() {

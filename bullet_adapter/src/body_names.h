@@ -40,15 +40,17 @@ class BodyNames {
     int number = 0;           ///< its own, which Bullet gave it
     std::uint32_t given = 0;  ///< names that began at the place
   };
-  /// The name of a body, and its place.
+  /// The name of a body, its place, and the substep in which it came there.
   struct Named {
     std::uint64_t name;
     int place;
+    std::int64_t since;
   };
 
   std::vector<Place> places_;
   std::unordered_map<int, Named>
-      by_number_;               ///< of all that are at a place, or were in this substep
+      by_number_;  ///< of all that are at a place, or were in this substep
+  std::int64_t substep_ = 0;
   std::vector<int> displaced_;  ///< numbers of those whose place another body has taken since
 };
 
