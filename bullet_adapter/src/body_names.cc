@@ -50,9 +50,9 @@ void BodyNames::Enter(int place, const btRigidBody& body) {
 }
 
 void BodyNames::Forget() {
-  places_ = {};
-  by_number_ = {};
-  displaced_ = {};
+  places_.clear();
+  by_number_.clear();
+  displaced_.clear();
 }
 
 }  // namespace CAIRN_BULLET_PRECISION

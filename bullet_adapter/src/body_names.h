@@ -48,8 +48,8 @@ class BodyNames {
   };
 
   std::vector<Place> places_;
-  std::unordered_map<int, Named>
-      by_number_;  ///< of all that are at a place, or were in this substep
+  /// Of all that are at a place, or were when this substep began.
+  std::unordered_map<int, Named> by_number_;
   std::int64_t substep_ = 0;
   std::vector<int> displaced_;  ///< numbers of those whose place another body has taken since
 };

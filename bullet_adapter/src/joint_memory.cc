@@ -283,7 +283,7 @@ void JointMemory::KeepThoseAsleep() {
 }
 
 void JointMemory::Forget() {
-  last_ = {};
+  last_.Clear();
   asleep_ = {};
 }
 

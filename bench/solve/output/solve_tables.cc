@@ -280,7 +280,7 @@ std::string SolvedSummary(const SolveResult& result) {
   if (!result.unread.empty()) {
     std::vector<std::string> paths;
     for (const UnreadFile& file : result.unread) paths.push_back(file.path);
-    text += fmt::format("{} left out, not readable ({})\n", paths.size(), Some(paths));
+    text += fmt::format("{} left out, not usable ({})\n", paths.size(), Some(paths));
   }
   return text;
 }

@@ -42,7 +42,7 @@ struct StepTrial {
   /// decide where phi cannot: redundant rows that contradict each other lower it the larger they
   /// get. What is not a number is not kept. Sweeps that begin from nothing soon leave small
   /// residuals, and a taut bridge that falls as a whole: there the lead of a step is far more than
-  /// what is rough could take back. So is what a step falls behind that throws such a bridge.
+  /// what is rough could take back. A step that falls that far behind throws such a bridge.
   bool is_better_alone() const {
     const bool far_behind = begins && -lead > kFarAhead * alone * alone;
     if (far_behind) return true;

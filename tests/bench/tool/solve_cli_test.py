@@ -256,7 +256,7 @@ class RefusalTest(SolveTestCase):
         result = cairn("solve", self.folder, "--solver", "pgs", "--json", self.path("r.json"))
         self.assertEqual(result.returncode, BAD_INPUT)
         self.assertIn("pgs: 1 of 1 solved", result.stdout)
-        self.assertIn("2 left out, not readable", result.stdout)
+        self.assertIn("2 left out, not usable", result.stdout)
         left_out = result.stderr.splitlines()
         self.assertEqual(len(left_out), 2, result.stderr)
         self.assertIn("b/q.mtx: cannot be read", left_out[0])
