@@ -86,6 +86,27 @@ inline void MoveBodies(const Momentum* momenta, const std::int32_t* of_body, int
   }
 }
 
+/// In an order that suits any width of registers.
+HWY_INLINE double SumOfEight(const double* numbers) {
+  return ((numbers[0] + numbers[4]) + (numbers[2] + numbers[6])) +
+         ((numbers[1] + numbers[5]) + (numbers[3] + numbers[7]));
+}
+
+/// Plain loops, which the compiler turns into vectors.
+inline double FindProgress(const std::int32_t* slots, int count, const Moving<BodyLane>& numbers) {
+  const FlushDenormals flush;
+  double sums[8] = {};
+  for (int i = 0; i < count; ++i) {
+    const float* const now = numbers.now[slots[i]].u;
+    const float* const last = numbers.last[slots[i]].u;
+    const float* const direction = numbers.direction[slots[i]].u;
+    for (int k = 0; k < 8; ++k) {
+      sums[k] += static_cast<double>(now[k] - last[k]) * static_cast<double>(direction[k]);
+    }
+  }
+  return SumOfEight(sums);
+}
+
 inline void FindLargest(const PairBlock* blocks, const BlockError* errors, int count,
                         BlockError* largest) {
   const hn::CappedTag<float, kLanes> d;
@@ -166,8 +187,7 @@ inline void FindSquares(const BodyLane* bodies, int count, double* squares) {
     for (int k = 0; k < 8; ++k) {
       products[k] = static_cast<double>(bodies[i].u[k]) * static_cast<double>(bodies[i].u[k]);
     }
-    squares[i] = ((products[0] + products[4]) + (products[2] + products[6])) +
-                 ((products[1] + products[5]) + (products[3] + products[7]));
+    squares[i] = SumOfEight(products);
   }
 }
 
@@ -203,8 +223,8 @@ inline double AddRounded(const double* numbers, int count, double scale) {
   return all;
 }
 
-constexpr LaneKernels kKernels = {MoveBlocks, MoveBodies,  FindLargest, AddEnergies,
-                                  FindGains,  FindSquares, FindMost,    AddRounded};
+constexpr LaneKernels kKernels = {MoveBlocks, MoveBodies,  FindProgress, FindLargest, AddEnergies,
+                                  FindGains,  FindSquares, FindMost,     AddRounded};
 
 }  // namespace numbers
 }  // namespace HWY_NAMESPACE

@@ -38,6 +38,9 @@ struct LaneKernels {
   /// The same for so many bodies. @param momenta  momenta[of_body[i]] is that of body i
   void (*move_bodies)(const Momentum* momenta, const std::int32_t* of_body, int count,
                       const Moving<BodyLane>& numbers);
+  /// The sum of (now - last) . direction over bodies @p slots[0 .. count - 1]: of each of their
+  /// eight numbers in their order, then of the eight.
+  double (*find_progress)(const std::int32_t* slots, int count, const Moving<BodyLane>& numbers);
 
   /// Raises @p largest to the errors of so many blocks, those of their unused lanes aside. What is
   /// not a number is passed over.

@@ -125,6 +125,29 @@ TEST(LaneNumbers, MoveBodiesOfEveryIslandInItsWay) {
   }
 }
 
+TEST(LaneNumbers, FindProgressOfTheBodiesThatAreNamedInTheirOrder) {
+  Random random(6);
+  State<BodyLane> state(30, &random);
+  for (const std::vector<std::int32_t>& slots :
+       {std::vector<std::int32_t>{}, {4}, {7, 3, 29}, {0, 2, 4, 6, 8, 10, 12, 14, 16}}) {
+    double sums[8] = {};
+    for (const std::int32_t slot : slots) {
+      for (size_t k = 0; k < 8; ++k) {
+        const size_t i = 8 * static_cast<size_t>(slot) + k;
+        const float done = *At(&state.now, i) - *At(&state.last, i);
+        sums[k] += static_cast<double>(done) * static_cast<double>(*At(&state.direction, i));
+      }
+    }
+    const double expected =
+        ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+    for (const Target target : SupportedTargets()) {
+      EXPECT_EQ(expected, LaneKernelsFor(target).find_progress(
+                              slots.data(), static_cast<int>(slots.size()), state.moving()))
+          << TargetName(target) << ", " << slots.size() << " bodies";
+    }
+  }
+}
+
 /// Errors of blocks with 1 to 16 lanes in use, and something in the others that counts for nothing.
 struct Errors {
   std::vector<PairBlock> blocks;

@@ -53,7 +53,7 @@ void CycleSweeps::SweepGroupByGroup(int count, std::span<GroupSweeps> groups, St
     if (!group.active) continue;
     for (int k = 0; k < count; ++k) {
       const SpanClock clock(frame_->settings.tuning.spans, 0, {SpanKind::kSweep, group.sweeps});
-      if (moves && !(starts && k == 0)) nncg_->MoveGroupOn(plan.groups()[g], frame_->blocks);
+      if (moves && !(starts && k == 0)) nncg_->MoveGroupOn(g, frame_->blocks);
       sweeps_->SweepGroup(g, group.sweeps++);
       sweeps_->ErrorsOfGroup(plan.groups()[g], islands_->sights());
       LearnDirections(g, group.sweeps, steps);

@@ -2,6 +2,7 @@
 #include "sweep/nncg.h"
 
 #include <algorithm>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -12,18 +13,28 @@ namespace {
 
 /// The island of what belongs to none, as in Plan::islands_of().
 constexpr int kNone = -1;
+/// Bodies of a Part.
+constexpr int kMostOfPart = 512;
 
 }  // namespace
 
-/// Blocks of each unit of the plan, and the bodies of each group.
+/// How far the last sweep went on; then blocks of each unit of the plan, and the bodies of each
+/// group.
 class Nncg::Pass final : public StagedWork {
  public:
   Pass(std::span<const GroupSweeps> groups, BlockFrame* frame, Nncg* nncg)
       : groups_(groups), plan_(frame->plan()), frame_(frame), nncg_(*nncg) {}
 
-  int stages() const override { return 1; }
-  int units(int) const override {
-    return static_cast<int>(plan_.units().size() + plan_.groups().size());
+  int stages() const override { return 2; }
+  int units(int stage) const override {
+    return static_cast<int>(stage == 0 ? nncg_.parts_.size()
+                                       : plan_.units().size() + plan_.groups().size());
+  }
+  bool GoOn(int stage) override {
+    for (size_t g = 0; g < groups_.size() && stage == 1; ++g) {
+      if (groups_[g].active) nncg_.TurnRound(static_cast<int>(g));
+    }
+    return true;
   }
   /// The beginning of the sweep that follows.
   SpanLabel label(int) const override {
@@ -31,7 +42,12 @@ class Nncg::Pass final : public StagedWork {
     for (const GroupSweeps& group : groups_) sweep = group.active ? group.sweeps : sweep;
     return {SpanKind::kSweep, sweep};
   }
-  void Do(int, int unit) override {
+  void Do(int stage, int unit) override {
+    if (stage == 0) {
+      const int island = nncg_.parts_[unit].island;
+      if (groups_[plan_.islands()[island].group].active) nncg_.FindProgress(unit, frame_);
+      return;
+    }
     const int blocks = static_cast<int>(plan_.units().size());
     const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
     if (!groups_[group].active) return;
@@ -46,7 +62,7 @@ class Nncg::Pass final : public StagedWork {
   void DoAll(SpanRecorder* recorder) {
     const SpanClock clock(recorder, 0, recorder != nullptr ? label(0) : SpanLabel{});
     for (size_t g = 0; g < groups_.size(); ++g) {
-      if (groups_[g].active) nncg_.MoveGroupOn(plan_.groups()[g], frame_);
+      if (groups_[g].active) nncg_.MoveGroupOn(static_cast<int>(g), frame_);
     }
   }
 
@@ -72,6 +88,34 @@ void Nncg::ReadPlan(const Plan& plan) {
   for (int body : plan.body_of_slot()) {
     island_of_slot_.push_back(body == kWorld ? kNone : plan.island_of_body()[body]);
   }
+  FindParts(plan);
+}
+
+void Nncg::FindParts(const Plan& plan) {
+  slots_.clear();
+  parts_.clear();
+  first_part_.clear();
+  const std::span<const int> bodies = plan.body_of_slot();
+  for (const Group& group : plan.groups()) {
+    first_part_.push_back(static_cast<int>(parts_.size()));
+    const auto begin = static_cast<std::ptrdiff_t>(slots_.size());
+    for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
+      if (island_of_slot_[slot] != kNone) slots_.push_back(slot);
+    }
+    // sums do not depend on what shares the group
+    std::sort(slots_.begin() + begin, slots_.end(), [&](int a, int b) {
+      return std::tuple(island_of_slot_[a], bodies[a], a) <
+             std::tuple(island_of_slot_[b], bodies[b], b);
+    });
+    for (int i = static_cast<int>(begin); i < static_cast<int>(slots_.size()); ++i) {
+      const int island = island_of_slot_[slots_[i]];
+      const bool more = i > begin && parts_.back().island == island;
+      if (!more || parts_.back().count == kMostOfPart) parts_.push_back({island, i, 0});
+      ++parts_.back().count;
+    }
+  }
+  first_part_.push_back(static_cast<int>(parts_.size()));
+  progress_.resize(parts_.size());
 }
 
 void Nncg::FindEnds(const Plan& plan) {
@@ -191,9 +235,33 @@ void Nncg::MoveBodies(const Group& group, BlockFrame* frame) {
                                      of_group(now_.direction.bodies)});
 }
 
-void Nncg::MoveGroupOn(const Group& group, BlockFrame* frame) {
-  MoveImpulses(group.first_block, group.blocks, frame);
-  MoveBodies(group, frame);
+void Nncg::FindProgress(int part, BlockFrame* frame) {
+  const auto [island, first, count] = parts_[part];
+  if (MomentumOf(island).beta == 0) return;
+  progress_[part] = frame->lane_kernels().find_progress(
+      slots_.data() + first, count,
+      {frame->blocks().bodies.data(), now_.last.bodies.data(), now_.direction.bodies.data()});
+}
+
+void Nncg::TurnRound(int group) {
+  for (int part = first_part_[group], end = part; part < first_part_[group + 1]; part = end) {
+    const int island = parts_[part].island;
+    double progress = 0;
+    for (; end < first_part_[group + 1] && parts_[end].island == island; ++end) {
+      progress += progress_[end];
+    }
+    if (MomentumOf(island).beta != 0 && progress < 0) MomentumOf(island) = {};
+  }
+}
+
+void Nncg::MoveGroupOn(int group, BlockFrame* frame) {
+  for (int part = first_part_[group]; part < first_part_[group + 1]; ++part) {
+    FindProgress(part, frame);
+  }
+  TurnRound(group);
+  const Group& of = frame->plan().groups()[group];
+  MoveImpulses(of.first_block, of.blocks, frame);
+  MoveBodies(of, frame);
 }
 
 void Nncg::MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame) {

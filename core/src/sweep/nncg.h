@@ -17,6 +17,11 @@ namespace cairn {
 /// Bullet, steps are measured in energy, so that light bodies do not drown among heavy ones, and
 /// what is moved out of its bounds is brought back by the sweep that has to follow.
 ///
+/// An island also starts anew where a sweep goes back on its direction: it was moved too far. With
+/// a ratio beta, errors shrink by sqrt(beta) a sweep and no faster, and that gives beta again: what
+/// began with a bad ratio would keep it, however fast sweeps alone are (O'Donoghue, Candes 2015,
+/// *Adaptive restart for accelerated gradient schemes*; there the product is with the gradient).
+///
 /// u is moved along with the impulses, which costs no product with G.
 class Nncg {
  public:
@@ -42,13 +47,22 @@ class Nncg {
   /// Moves the state of the active groups on. A whole sweep has to follow.
   void MoveOn(std::span<const GroupSweeps> groups, Crew* crew, BlockFrame* frame);
   /// The same of one group.
-  void MoveGroupOn(const Group& group, BlockFrame* frame);
+  void MoveGroupOn(int group, BlockFrame* frame);
 
  private:
   class Pass;
+  /// Bodies of an island, of which one thread sums up the progress.
+  struct Part {
+    int island, first, count;  ///< in slots_
+  };
   void ReadPlan(const Plan& plan);
   void Remember(const BlockData& now, Crew* crew);
   void FindEnds(const Plan& plan);
+  void FindParts(const Plan& plan);
+  /// What the last sweep did along the direction of an island: of a part of its bodies.
+  void FindProgress(int part, BlockFrame* frame);
+  /// Islands of a group whose sweep went back have no direction. @pre FindProgress()
+  void TurnRound(int group);
   void MoveImpulses(int first_block, int blocks, BlockFrame* frame);
   void MoveBodies(const Group& group, BlockFrame* frame);
   simd::Momentum& MomentumOf(int island) { return now_.momenta[static_cast<size_t>(island) + 1]; }
@@ -67,6 +81,10 @@ class Nncg {
   static void Copy(const Plan& plan, const Group& group, const Course& from, Course* to);
 
   Array<int> island_of_slot_;
+  Array<int> slots_;  ///< of bodies, island by island, each in the order of the problem
+  Array<Part> parts_;
+  Array<int> first_part_;   ///< by group; one more at the end
+  Array<double> progress_;  ///< by part
   /// Rows of an island do not take part in further sweeps than that.
   struct End {
     int group, sweeps, island;
