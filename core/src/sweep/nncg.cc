@@ -7,32 +7,34 @@
 #include <utility>
 
 #include "runtime/in_parts.h"
+#include "simd/flush_denormals.h"
 
 namespace cairn {
 namespace {
 
 /// The island of what belongs to none, as in Plan::islands_of().
 constexpr int kNone = -1;
-/// Bodies of a Part.
+/// Bodies of a Part, and of a group that one thread moves.
 constexpr int kMostOfPart = 512;
 
 }  // namespace
 
-/// How far the last sweep went on; then blocks of each unit of the plan, and the bodies of each
-/// group.
+/// How far the last sweep went on in large groups; then their units and their bodies, and others
+/// as a whole.
 class Nncg::Pass final : public StagedWork {
  public:
   Pass(std::span<const GroupSweeps> groups, BlockFrame* frame, Nncg* nncg)
       : groups_(groups), plan_(frame->plan()), frame_(frame), nncg_(*nncg) {}
 
-  int stages() const override { return 2; }
+  int stages() const override { return nncg_.shared_.empty() ? 1 : 2; }
   int units(int stage) const override {
-    return static_cast<int>(stage == 0 ? nncg_.parts_.size()
-                                       : plan_.units().size() + plan_.groups().size());
+    return static_cast<int>(IsLast(stage) ? plan_.units().size() + plan_.groups().size()
+                                          : nncg_.shared_.size());
   }
   bool GoOn(int stage) override {
-    for (size_t g = 0; g < groups_.size() && stage == 1; ++g) {
-      if (groups_[g].active) nncg_.TurnRound(static_cast<int>(g));
+    for (size_t g = 0; g < groups_.size() && stage > 0; ++g) {
+      const bool alone = nncg_.MovesAlone(plan_.groups()[g]);
+      if (groups_[g].active && !alone) nncg_.ForgetWhereGoneBack(static_cast<int>(g));
     }
     return true;
   }
@@ -43,18 +45,21 @@ class Nncg::Pass final : public StagedWork {
     return {SpanKind::kSweep, sweep};
   }
   void Do(int stage, int unit) override {
-    if (stage == 0) {
-      const int island = nncg_.parts_[unit].island;
-      if (groups_[plan_.islands()[island].group].active) nncg_.FindProgress(unit, frame_);
+    if (!IsLast(stage)) {
+      const int part = nncg_.shared_[unit];
+      const int island = nncg_.parts_[part].island;
+      if (groups_[plan_.islands()[island].group].active) nncg_.FindProgress(part, frame_);
       return;
     }
     const int blocks = static_cast<int>(plan_.units().size());
     const int group = unit < blocks ? plan_.units()[unit].group : unit - blocks;
     if (!groups_[group].active) return;
-    if (unit < blocks) {
-      nncg_.MoveImpulses(plan_.units()[unit].first_block, plan_.units()[unit].blocks, frame_);
-    } else {
+    const bool alone = nncg_.MovesAlone(plan_.groups()[group]);
+    if (unit >= blocks) {
+      if (alone) return nncg_.MoveGroupOn(group, frame_);
       nncg_.MoveBodies(plan_.groups()[group], frame_);
+    } else if (!alone) {
+      nncg_.MoveImpulses(plan_.units()[unit].first_block, plan_.units()[unit].blocks, frame_);
     }
   }
 
@@ -67,6 +72,8 @@ class Nncg::Pass final : public StagedWork {
   }
 
  private:
+  bool IsLast(int stage) const { return stage + 1 == stages(); }
+
   std::span<const GroupSweeps> groups_;
   const Plan& plan_;
   BlockFrame* frame_;
@@ -95,6 +102,7 @@ void Nncg::FindParts(const Plan& plan) {
   slots_.clear();
   parts_.clear();
   first_part_.clear();
+  shared_.clear();
   const std::span<const int> bodies = plan.body_of_slot();
   for (const Group& group : plan.groups()) {
     first_part_.push_back(static_cast<int>(parts_.size()));
@@ -102,7 +110,6 @@ void Nncg::FindParts(const Plan& plan) {
     for (int slot = group.first_slot; slot < group.first_slot + group.slots; ++slot) {
       if (island_of_slot_[slot] != kNone) slots_.push_back(slot);
     }
-    // sums do not depend on what shares the group
     std::sort(slots_.begin() + begin, slots_.end(), [&](int a, int b) {
       return std::tuple(island_of_slot_[a], bodies[a], a) <
              std::tuple(island_of_slot_[b], bodies[b], b);
@@ -110,7 +117,10 @@ void Nncg::FindParts(const Plan& plan) {
     for (int i = static_cast<int>(begin); i < static_cast<int>(slots_.size()); ++i) {
       const int island = island_of_slot_[slots_[i]];
       const bool more = i > begin && parts_.back().island == island;
-      if (!more || parts_.back().count == kMostOfPart) parts_.push_back({island, i, 0});
+      if (!more || parts_.back().count == kMostOfPart) {
+        if (!MovesAlone(group)) shared_.push_back(static_cast<int>(parts_.size()));
+        parts_.push_back({island, i, 0});
+      }
       ++parts_.back().count;
     }
   }
@@ -235,6 +245,8 @@ void Nncg::MoveBodies(const Group& group, BlockFrame* frame) {
                                      of_group(now_.direction.bodies)});
 }
 
+bool Nncg::MovesAlone(const Group& group) { return group.slots <= kMostOfPart; }
+
 void Nncg::FindProgress(int part, BlockFrame* frame) {
   const auto [island, first, count] = parts_[part];
   if (MomentumOf(island).beta == 0) return;
@@ -243,7 +255,7 @@ void Nncg::FindProgress(int part, BlockFrame* frame) {
       {frame->blocks().bodies.data(), now_.last.bodies.data(), now_.direction.bodies.data()});
 }
 
-void Nncg::TurnRound(int group) {
+void Nncg::ForgetWhereGoneBack(int group) {
   for (int part = first_part_[group], end = part; part < first_part_[group + 1]; part = end) {
     const int island = parts_[part].island;
     double progress = 0;
@@ -255,10 +267,11 @@ void Nncg::TurnRound(int group) {
 }
 
 void Nncg::MoveGroupOn(int group, BlockFrame* frame) {
+  const simd::FlushDenormals flush;  // one for all kernels
   for (int part = first_part_[group]; part < first_part_[group + 1]; ++part) {
     FindProgress(part, frame);
   }
-  TurnRound(group);
+  ForgetWhereGoneBack(group);
   const Group& of = frame->plan().groups()[group];
   MoveImpulses(of.first_block, of.blocks, frame);
   MoveBodies(of, frame);

@@ -51,7 +51,7 @@ class Nncg {
 
  private:
   class Pass;
-  /// Bodies of an island, of which one thread sums up the progress.
+  /// Bodies of an island, which are summed up by themselves.
   struct Part {
     int island, first, count;  ///< in slots_
   };
@@ -59,10 +59,13 @@ class Nncg {
   void Remember(const BlockData& now, Crew* crew);
   void FindEnds(const Plan& plan);
   void FindParts(const Plan& plan);
+  /// Whether one thread moves a group, so that nobody waits.
+  static bool MovesAlone(const Group& group);
   /// What the last sweep did along the direction of an island: of a part of its bodies.
   void FindProgress(int part, BlockFrame* frame);
-  /// Islands of a group whose sweep went back have no direction. @pre FindProgress()
-  void TurnRound(int group);
+  /// Islands of a group whose sweep went back have no direction; the ratio of the next sweep to
+  /// this one is known all the same. @pre FindProgress() of its parts
+  void ForgetWhereGoneBack(int group);
   void MoveImpulses(int first_block, int blocks, BlockFrame* frame);
   void MoveBodies(const Group& group, BlockFrame* frame);
   simd::Momentum& MomentumOf(int island) { return now_.momenta[static_cast<size_t>(island) + 1]; }
@@ -81,9 +84,12 @@ class Nncg {
   static void Copy(const Plan& plan, const Group& group, const Course& from, Course* to);
 
   Array<int> island_of_slot_;
-  Array<int> slots_;  ///< of bodies, island by island, each in the order of the problem
+  /// Of bodies, island by island, each in the order of the problem: sums over them are the same
+  /// whatever else is in the group.
+  Array<int> slots_;
   Array<Part> parts_;
   Array<int> first_part_;   ///< by group; one more at the end
+  Array<int> shared_;       ///< parts of groups that one thread does not move alone
   Array<double> progress_;  ///< by part
   /// Rows of an island do not take part in further sweeps than that.
   struct End {
