@@ -27,7 +27,7 @@ endif()
 # unique in the process: a plugin that has them could not be unloaded.
 function(cairn_strict target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  # Files reuse names of helpers, and kernels include themselves, once per target.
+  # Kernels include themselves, once per target.
   set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   if(MSVC)  # not tried; there /fp:precise fuses nothing since Visual Studio 2022
     target_compile_options(${target} PRIVATE /W4 /permissive- /fp:precise $<$<BOOL:${CAIRN_WERROR}>:/WX>)
@@ -51,13 +51,34 @@ function(cairn_strict target)
   endif()
 endfunction()
 
-# What no benchmark times - tools, scenes, tests - is compiled in half of the time: cairn_untimed(targets...), of which
-# those that are not there are passed over.
+# What no benchmark times - tools, scenes, tests - is compiled in a fraction of the time: cairn_untimed(targets...), of
+# which those that are not there are passed over. Files of one folder are compiled as one file, but where they reuse
+# names of helpers. With -DCMAKE_UNITY_BUILD=OFF each file is compiled alone; there an include that is missing is seen.
 set(CAIRN_UNTIMED $<$<NOT:$<OR:$<CONFIG:Debug>,$<CXX_COMPILER_ID:MSVC>>>:-O1>)
+set(CAIRN_ALONE "^(bench/(frames|scenes.*|worlds/conditions)|tests/(simd|core/(frame|lcp)|bench.*))$")
 function(cairn_untimed)
   foreach(target ${ARGN})
     if(TARGET ${target})
       target_compile_options(${target} PRIVATE ${CAIRN_UNTIMED})
+      cairn_by_folder(${target})
+    endif()
+  endforeach()
+endfunction()
+
+function(cairn_by_folder target)
+  if(DEFINED CMAKE_UNITY_BUILD AND NOT CMAKE_UNITY_BUILD)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source ${sources})
+    get_filename_component(folder ${source} ABSOLUTE)
+    get_filename_component(folder ${folder} DIRECTORY)
+    cmake_path(IS_PREFIX PROJECT_BINARY_DIR ${folder} made_here)
+    file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${folder})
+    if(NOT made_here AND NOT folder MATCHES "${CAIRN_ALONE}")
+      string(REPLACE / _ folder ${folder})
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder})
     endif()
   endforeach()
 endfunction()

@@ -18,30 +18,30 @@
 namespace cairn::cli {
 namespace {
 
-using Json = nlohmann::json;
+using ParsedJson = nlohmann::json;
 
-std::vector<double> Series(const Json& list) {
+std::vector<double> Series(const ParsedJson& list) {
   std::vector<double> values;
-  for (const Json& value : list) {
+  for (const ParsedJson& value : list) {
     values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                      : value.get<double>());
   }
   return values;
 }
 
-Repetitions AllSeries(const Json& repetitions, const char* name) {
+Repetitions AllSeries(const ParsedJson& repetitions, const char* name) {
   Repetitions all;
-  for (const Json& repetition : repetitions) all.push_back(Series(repetition.at(name)));
+  for (const ParsedJson& repetition : repetitions) all.push_back(Series(repetition.at(name)));
   return all;
 }
 
-RecordedSolver ReadSolver(const Json& json) {
+RecordedSolver ReadSolver(const ParsedJson& json) {
   RecordedSolver solver{.name = json.at("solver"),
                         .effort = json.at("effort"),
                         .failure = {},
                         .times = AllSeries(json.at("repetitions"), "time_ms"),
                         .residuals = AllSeries(json.at("repetitions"), "residual_m_s")};
-  if (const Json& failure = json.at("failure"); !failure.is_null()) {
+  if (const ParsedJson& failure = json.at("failure"); !failure.is_null()) {
     solver.failure = fmt::format("at frame {}, {}", failure.at("frame").get<int>(),
                                  failure.at("reason").get<std::string>());
   }
@@ -68,26 +68,27 @@ void CheckSeries(const RecordedScene& scene) {
     throw std::invalid_argument("numbers of frames differ, or are negative, in " + scene.name);
 }
 
-RecordedScene ReadScene(const Json& json) {
+RecordedScene ReadScene(const ParsedJson& json) {
   RecordedScene scene{.name = json.at("scene"),
                       .world = fmt::format("size {}, seed {}, {} bodies", json.at("size").dump(),
                                            json.at("seed").dump(), json.at("bodies").dump()),
                       .arithmetic = AllSeries(json.at("metronome"), "arithmetic_ms"),
                       .memory = AllSeries(json.at("metronome"), "memory_ms"),
                       .solvers = {}};
-  for (const Json& solver : json.at("solvers")) scene.solvers.push_back(ReadSolver(solver));
+  for (const ParsedJson& solver : json.at("solvers")) scene.solvers.push_back(ReadSolver(solver));
   CheckSeries(scene);
   return scene;
 }
 
-std::string Words(const Json& value) {
+std::string Words(const ParsedJson& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
 }
 
-void ReadCircumstances(const Json& json, RunFile* file) {
-  const Json& context = json.at("context");
-  const Json &host = context.at("host"), &build = context.at("build"), &run = context.at("run");
-  const Json& bullet = build.at("bullet");
+void ReadCircumstances(const ParsedJson& json, RunFile* file) {
+  const ParsedJson& context = json.at("context");
+  const ParsedJson &host = context.at("host"), &build = context.at("build"),
+                   &run = context.at("run");
+  const ParsedJson& bullet = build.at("bullet");
   file->required = {{"CPU", Words(host.at("cpu"))},
                     {"cores", Words(host.at("cores"))},
                     {"build type", Words(build.at("build_type"))},
@@ -95,7 +96,7 @@ void ReadCircumstances(const Json& json, RunFile* file) {
                     {"frames", Words(json.at("frames"))},
                     {"warm-up frames", Words(run.at("warmup_frames"))},
                     {"budget [ms]", Words(json.at("budget_ms"))},
-                    {"budget [units]", Words(json.value("budget_units", Json()))}};
+                    {"budget [units]", Words(json.value("budget_units", ParsedJson()))}};
   file->expected = {{"SIMD target", Words(host.at("simd_target"))},
                     {"threads of Cairn", Words(run.at("threads"))},
                     {"core pinned to", Words(run.at("pinned_to_core"))},
@@ -104,7 +105,7 @@ void ReadCircumstances(const Json& json, RunFile* file) {
                     {"Bullet", Words(bullet.at("version")) + ", " + Words(bullet.at("library"))}};
 }
 
-Json Parse(const std::string& path) {
+ParsedJson Parse(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
@@ -112,7 +113,7 @@ Json Parse(const std::string& path) {
   if (is_folder || !stream) {
     throw Failure(kUsage, fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
   }
-  Json json = Json::parse(stream, nullptr, false);
+  ParsedJson json = ParsedJson::parse(stream, nullptr, false);
   if (json.is_discarded()) {
     throw Failure(kUsage, fmt::format("'{}' is not JSON, or was cut: write it again with cairn "
                                       "run --json",
@@ -121,9 +122,9 @@ Json Parse(const std::string& path) {
   return json;
 }
 
-void CheckVersion(const Json& json, const std::string& path) {
+void CheckVersion(const ParsedJson& json, const std::string& path) {
   const bool is_run = json.is_object() && json.contains("scenes");
-  if (is_run && json.value("schema_version", Json()) == kRunSchema) return;
+  if (is_run && json.value("schema_version", ParsedJson()) == kRunSchema) return;
   if (!is_run) {
     throw Failure(
         kUsage,
@@ -131,21 +132,22 @@ void CheckVersion(const Json& json, const std::string& path) {
                     "run small)",
                     path));
   }
-  throw Failure(kUsage, fmt::format("'{}' has schema_version {}, and this cairn reads {}: write it "
-                                    "again with this cairn",
-                                    path, Words(json.value("schema_version", Json())), kRunSchema));
+  throw Failure(kUsage,
+                fmt::format("'{}' has schema_version {}, and this cairn reads {}: write it "
+                            "again with this cairn",
+                            path, Words(json.value("schema_version", ParsedJson())), kRunSchema));
 }
 
 }  // namespace
 
 RunFile ReadRunFile(const std::string& path) {
-  const Json json = Parse(path);
+  const ParsedJson json = Parse(path);
   CheckVersion(json, path);
   RunFile file;
   file.path = path;
   try {
     ReadCircumstances(json, &file);
-    for (const Json& scene : json.at("scenes")) file.scenes.push_back(ReadScene(scene));
+    for (const ParsedJson& scene : json.at("scenes")) file.scenes.push_back(ReadScene(scene));
     if (file.scenes.empty()) throw std::invalid_argument("it has no scene");
   } catch (const std::exception& error) {
     throw Failure(

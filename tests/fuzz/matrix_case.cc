@@ -19,7 +19,7 @@ using lcp::Status;
 
 using Matrix = Eigen::SparseMatrix<double>;
 
-constexpr int kMostRows = 9;
+constexpr int kMostUnknowns = 9;
 
 class MatrixMaker {
  public:
@@ -71,7 +71,7 @@ class MatrixMaker {
   }
 
   BoxedLcp MakeBoxed() {
-    const int n = choices_.Below(kMostRows);
+    const int n = choices_.Below(kMostUnknowns);
     BoxedLcp problem;
     problem.M = MakeMatrix(n);
     problem.q = MakeVector(n);

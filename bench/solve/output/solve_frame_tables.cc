@@ -17,7 +17,7 @@ std::string Steps(const LcpSolverResult& solver) {
   return fmt::format("{} / {}", solver.steps_accepted, solver.steps_restored);
 }
 
-std::string Ended(const LcpSolverResult& solver) {
+std::string FrameEnded(const LcpSolverResult& solver) {
   if (!solver.failure) return solver.stop;
   return fmt::format("NOT: {}", solver.stop);
 }
@@ -131,7 +131,7 @@ TextTable FrameWorkTable(const SolveResult& result) {
             row->push_back(Steps(solver));
             row->push_back(FormatNumber(solver.residual.max));
             if (errors) AddErrorCells(problem, solver, row);
-            row->push_back(Ended(solver));
+            row->push_back(FrameEnded(solver));
           });
   return table;
 }

@@ -19,7 +19,7 @@ using test::SmallWorld;
 using test::Thing;
 using test::Vector3d;
 
-constexpr double kRadius = 0.1, kStep = 1 / 60.0;
+constexpr double kBallRadius = 0.1, kStep = 1 / 60.0;
 
 SmallWorld Relaxing(bool relax = true) {
   SmallWorld world;
@@ -40,7 +40,8 @@ SmallWorld StepOnce(bool relax, const Vector3d& position, const Velocity& veloci
 /// A ball that touches the ground.
 void Touches(double restitution, SmallWorld* world) {
   const Vector3d& at = world->things[0].position;
-  const std::array points{TouchPoint{.position = {at.x(), 0, at.z()}, .depth = kRadius - at.y()}};
+  const std::array points{
+      TouchPoint{.position = {at.x(), 0, at.z()}, .depth = kBallRadius - at.y()}};
   world->contacts.Add({.body_a = 0, .centre_a = at, .restitution = restitution, .id = 1}, points);
 }
 
@@ -51,7 +52,7 @@ void Holds(const JointKind& kind, SmallWorld* world) {
 // By hand: a depth of 30 mm, less 5 mm of slop, by a fifth: 5 mm.
 TEST(Relax, DepthMovesABodyAndLeavesItAtRest) {
   const auto fill = [](SmallWorld* w) { Touches(0, w); };
-  const Vector3d deep(0, kRadius - 0.03, 0);
+  const Vector3d deep(0, kBallRadius - 0.03, 0);
   const SmallWorld pushed = StepOnce(false, deep, {}, fill);
   EXPECT_NEAR(pushed.things[0].velocity.linear.y(), 0.005 / kStep, 1e-5);
   const SmallWorld relaxed = StepOnce(true, deep, {}, fill);
@@ -64,11 +65,11 @@ TEST(Relax, ImpulsesAreThoseOfTheVelocity) {
   for (const int substeps : {1, 3}) {
     SmallWorld world = Relaxing();
     world.solver.settings().substeps = substeps;
-    world.things.push_back({.mass = 2, .position = {0, kRadius - 0.03, 0}});
+    world.things.push_back({.mass = 2, .position = {0, kBallRadius - 0.03, 0}});
     world.Step([](SmallWorld* w) { Touches(0, w); });
     EXPECT_NEAR(world.contacts.impulses()[0].normal, 2 * 9.81 * kStep, 1e-4) << substeps;
     EXPECT_NEAR(world.things[0].velocity.linear.y(), 0, 1e-4) << substeps;
-    EXPECT_NEAR(world.things[0].position.y(), kRadius - 0.025, 1e-5) << substeps;
+    EXPECT_NEAR(world.things[0].position.y(), kBallRadius - 0.025, 1e-5) << substeps;
   }
 }
 
@@ -111,8 +112,8 @@ TEST(Relax, KeepsWhatTakesBackNoError) {
   };
   const JointAxis spring{.rest = 0.1, .frequency = 3}, motor{.speed = 2, .max_motor_force = 1e4};
   const std::array cases{
-      Case{{0, kRadius + 0.02, 0}, falls, [](SmallWorld* w) { Touches(0, w); }},
-      Case{{0, kRadius - 0.03, 0},
+      Case{{0, kBallRadius + 0.02, 0}, falls, [](SmallWorld* w) { Touches(0, w); }},
+      Case{{0, kBallRadius - 0.03, 0},
            falls,
            [](SmallWorld* w) {
              w->contacts.options().frequency = 5;
@@ -135,13 +136,13 @@ TEST(Relax, KeepsWhatTakesBackNoError) {
 /// How high a ball of the core alone gets after its first bounce, with a fifth of its depth taken
 /// back: bias and restitution as they come [m].
 double RawHeight(bool relax, double drop, double rate) {
-  Thing ball{.position = {0, kRadius + drop, 0}};
+  Thing ball{.position = {0, kBallRadius + drop, 0}};
   const double h = 1 / rate;
   Solver solver({.relax = relax, .tolerance = 1e-5});
   bool bounced = false;
   double highest = 0;
   for (int frame = 0; frame < 4 * rate; ++frame) {
-    const double gap = ball.position.y() - kRadius;
+    const double gap = ball.position.y() - kBallRadius;
     const Body body{.inv_mass = 1,
                     .inv_inertia = Eigen::Matrix3d::Identity(),
                     .velocity = ball.velocity,
@@ -162,7 +163,7 @@ double RawHeight(bool relax, double drop, double rate) {
     ball.velocity = velocity;
     if (bounced && velocity.linear.y() <= 0) break;
     bounced = bounced || turned;
-    if (bounced) highest = std::max(highest, ball.position.y() - kRadius);
+    if (bounced) highest = std::max(highest, ball.position.y() - kBallRadius);
   }
   return highest;
 }
@@ -220,7 +221,7 @@ TEST(Relax, BallsBounceToTheSquareOfRestitutionBesideATower) {
   constexpr std::array kRestitutions{0.0, 0.5, 1.0};
   SmallWorld world = SqueezedTower(true);
   for (int i = 0; i < 3; ++i) {
-    world.things.push_back({.position = {5.0 + i, kRadius + 2, 0}, .inertia = 0.004});
+    world.things.push_back({.position = {5.0 + i, kBallRadius + 2, 0}, .inertia = 0.004});
   }
   struct Bounce {
     bool rises = false, over = false;
@@ -232,7 +233,7 @@ TEST(Relax, BallsBounceToTheSquareOfRestitutionBesideATower) {
       for (int i = 0; i < 3; ++i) {
         const Vector3d& at = w->things[5 + i].position;
         const std::array points{
-            TouchPoint{.position = {at.x(), 0, at.z()}, .depth = kRadius - at.y()}};
+            TouchPoint{.position = {at.x(), 0, at.z()}, .depth = kBallRadius - at.y()}};
         w->contacts.Add({.body_a = 5 + i,
                          .centre_a = at,
                          .restitution = kRestitutions[i],
@@ -247,7 +248,7 @@ TEST(Relax, BallsBounceToTheSquareOfRestitutionBesideATower) {
       bounce.over = bounce.over || (bounce.rises && ball.velocity.linear.y() <= 0);
       bounce.rises = bounce.rises || ball.velocity.linear.y() > 0.1;
       if (bounce.rises && !bounce.over) {
-        bounce.height = std::max(bounce.height, ball.position.y() - kRadius);
+        bounce.height = std::max(bounce.height, ball.position.y() - kBallRadius);
       }
     }
   }
@@ -357,8 +358,8 @@ TEST(Relax, SolvesBothProblems) {
 TEST(Relax, WithoutErrorsIsTheSameToTheBit) {
   const auto fill = [](SmallWorld* w) { Touches(0, w); };
   const Velocity falls{.linear = {0.5, -3, 0}, .angular = {0, 400, 1}};
-  const SmallWorld one = StepOnce(false, {0, kRadius + 0.01, 0}, falls, fill);
-  const SmallWorld two = StepOnce(true, {0, kRadius + 0.01, 0}, falls, fill);
+  const SmallWorld one = StepOnce(false, {0, kBallRadius + 0.01, 0}, falls, fill);
+  const SmallWorld two = StepOnce(true, {0, kBallRadius + 0.01, 0}, falls, fill);
   EXPECT_EQ(one.things[0].velocity.linear, two.things[0].velocity.linear);
   EXPECT_EQ(one.things[0].velocity.angular, two.things[0].velocity.angular);
   EXPECT_EQ(one.things[0].position, two.things[0].position);
@@ -370,16 +371,16 @@ TEST(Relax, DoesSoInEachOfSubsteps) {
   SmallWorld world = Relaxing();
   world.gravity = 0;
   world.solver.settings().substeps = 4;
-  world.things.push_back({.position = {0, kRadius - 0.03, 0}});
+  world.things.push_back({.position = {0, kBallRadius - 0.03, 0}});
   world.Step([](SmallWorld* w) { Touches(0, w); });
-  EXPECT_NEAR(world.things[0].position.y(), kRadius - 0.025, 1e-5);
+  EXPECT_NEAR(world.things[0].position.y(), kBallRadius - 0.025, 1e-5);
   EXPECT_NEAR(world.things[0].velocity.linear.y(), 0, 1e-4);
 }
 
 // 5 mm a step are 0.3 m/s, though the body keeps no velocity: it is not to fall asleep on the way.
 TEST(Relax, WhatIsMovedOutIsNotQuiet) {
   SmallWorld world = Relaxing();
-  world.things.push_back({.position = {0, kRadius - 0.09, 0}});
+  world.things.push_back({.position = {0, kBallRadius - 0.09, 0}});
   for (int i = 0; i < 10; ++i) world.Step([](SmallWorld* w) { Touches(0, w); });
   EXPECT_GT(world.report.islands[0].speed, 0.1);
   EXPECT_EQ(world.report.islands[0].quiet, 0);
@@ -391,7 +392,7 @@ TEST(Relax, StaysInABudgetOfWork) {
   for (const std::int64_t work : {0, 20, 100, 1000}) {
     SmallWorld world = Relaxing();
     world.solver.settings().budget = Budget::Work(work);
-    world.things.push_back({.position = {0, kRadius - 0.03, 0}});
+    world.things.push_back({.position = {0, kBallRadius - 0.03, 0}});
     world.Step([](SmallWorld* w) { Touches(0, w); });
     // a sweep that is begun in time is finished: three rows
     EXPECT_LE(world.report.work, std::max<std::int64_t>(work + 3, 2 * 2 * 3)) << work;
