@@ -153,16 +153,16 @@ Feature FlaggedPoints(std::string_view name, int flags) {
 }
 
 std::vector<Feature> ModeFeatures() {
-  constexpr int kTwo = SOLVER_USE_2_FRICTION_DIRECTIONS, kWarm = SOLVER_USE_WARMSTARTING;
+  constexpr int kTwoDirections = SOLVER_USE_2_FRICTION_DIRECTIONS, kWarm = SOLVER_USE_WARMSTARTING;
   constexpr int kCached = SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
-  constexpr int kFixed = SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+  constexpr int kFixedDirections = SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
   return {
       Mode("DefaultMode", 0, 0),
-      Mode("OneDirection", 0, kTwo),
+      Mode("OneDirection", 0, kTwoDirections),
       Mode("NoWarmStart", 0, kWarm),
-      Mode("FixedDirections", kFixed, 0),
-      Mode("OneFixedDirection", kFixed, kTwo),
-      Mode("CachedDirections", kCached | kFixed, 0),
+      Mode("FixedDirections", kFixedDirections, 0),
+      Mode("OneFixedDirection", kFixedDirections, kTwoDirections),
+      Mode("CachedDirections", kCached | kFixedDirections, 0),
       Mode("EveryOtherFlag",
            SOLVER_RANDMIZE_ORDER | SOLVER_INTERLEAVE_CONTACT_AND_FRICTION_CONSTRAINTS, SOLVER_SIMD),
   };
