@@ -141,10 +141,11 @@ std::string Describe(const SceneNoise& noise) {
       noise.arithmetic_before, noise.memory_before, noise.arithmetic_after, noise.memory_after);
 }
 
-double Excess(double ratio) { return 100 * (ratio - 1); }
+double PercentAbove(double ratio) { return 100 * (ratio - 1); }
 
 std::string Between(const Ratio& ratio) {
-  return fmt::format("between {:+.1f} and {:+.1f} %", Excess(ratio.low), Excess(ratio.high));
+  return fmt::format("between {:+.1f} and {:+.1f} %", PercentAbove(ratio.low),
+                     PercentAbove(ratio.high));
 }
 
 void Report(const SolverComparison& solver, const Change& change, const char* slower,
@@ -152,7 +153,7 @@ void Report(const SolverComparison& solver, const Change& change, const char* sl
   const std::string who = fmt::format("{}, {} ({})", solver.scene, solver.name, solver.effort);
   if (change.verdict == Verdict::kRegression) {
     result->regressions.push_back(fmt::format("{}: {:.1f} % {} ({}); {}.", who,
-                                              Excess(change.ratio.value), slower,
+                                              PercentAbove(change.ratio.value), slower,
                                               Between(change.ratio), Describe(noise)));
   }
   if (change.verdict == Verdict::kUnknown) {

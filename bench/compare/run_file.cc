@@ -18,30 +18,30 @@
 namespace cairn::cli {
 namespace {
 
-using ParsedJson = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
-std::vector<double> Series(const ParsedJson& list) {
+std::vector<double> Series(const Json& list) {
   std::vector<double> values;
-  for (const ParsedJson& value : list) {
+  for (const Json& value : list) {
     values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN()
                                      : value.get<double>());
   }
   return values;
 }
 
-Repetitions AllSeries(const ParsedJson& repetitions, const char* name) {
+Repetitions AllSeries(const Json& repetitions, const char* name) {
   Repetitions all;
-  for (const ParsedJson& repetition : repetitions) all.push_back(Series(repetition.at(name)));
+  for (const Json& repetition : repetitions) all.push_back(Series(repetition.at(name)));
   return all;
 }
 
-RecordedSolver ReadSolver(const ParsedJson& json) {
+RecordedSolver ReadSolver(const Json& json) {
   RecordedSolver solver{.name = json.at("solver"),
                         .effort = json.at("effort"),
                         .failure = {},
                         .times = AllSeries(json.at("repetitions"), "time_ms"),
                         .residuals = AllSeries(json.at("repetitions"), "residual_m_s")};
-  if (const ParsedJson& failure = json.at("failure"); !failure.is_null()) {
+  if (const Json& failure = json.at("failure"); !failure.is_null()) {
     solver.failure = fmt::format("at frame {}, {}", failure.at("frame").get<int>(),
                                  failure.at("reason").get<std::string>());
   }
@@ -68,27 +68,26 @@ void CheckSeries(const RecordedScene& scene) {
     throw std::invalid_argument("numbers of frames differ, or are negative, in " + scene.name);
 }
 
-RecordedScene ReadScene(const ParsedJson& json) {
+RecordedScene ReadScene(const Json& json) {
   RecordedScene scene{.name = json.at("scene"),
                       .world = fmt::format("size {}, seed {}, {} bodies", json.at("size").dump(),
                                            json.at("seed").dump(), json.at("bodies").dump()),
                       .arithmetic = AllSeries(json.at("metronome"), "arithmetic_ms"),
                       .memory = AllSeries(json.at("metronome"), "memory_ms"),
                       .solvers = {}};
-  for (const ParsedJson& solver : json.at("solvers")) scene.solvers.push_back(ReadSolver(solver));
+  for (const Json& solver : json.at("solvers")) scene.solvers.push_back(ReadSolver(solver));
   CheckSeries(scene);
   return scene;
 }
 
-std::string Words(const ParsedJson& value) {
+std::string Words(const Json& value) {
   return value.is_string() ? value.get<std::string>() : value.is_null() ? "none" : value.dump();
 }
 
-void ReadCircumstances(const ParsedJson& json, RunFile* file) {
-  const ParsedJson& context = json.at("context");
-  const ParsedJson &host = context.at("host"), &build = context.at("build"),
-                   &run = context.at("run");
-  const ParsedJson& bullet = build.at("bullet");
+void ReadCircumstances(const Json& json, RunFile* file) {
+  const Json& context = json.at("context");
+  const Json &host = context.at("host"), &build = context.at("build"), &run = context.at("run");
+  const Json& bullet = build.at("bullet");
   file->required = {{"CPU", Words(host.at("cpu"))},
                     {"cores", Words(host.at("cores"))},
                     {"build type", Words(build.at("build_type"))},
@@ -96,7 +95,7 @@ void ReadCircumstances(const ParsedJson& json, RunFile* file) {
                     {"frames", Words(json.at("frames"))},
                     {"warm-up frames", Words(run.at("warmup_frames"))},
                     {"budget [ms]", Words(json.at("budget_ms"))},
-                    {"budget [units]", Words(json.value("budget_units", ParsedJson()))}};
+                    {"budget [units]", Words(json.value("budget_units", Json()))}};
   file->expected = {{"SIMD target", Words(host.at("simd_target"))},
                     {"threads of Cairn", Words(run.at("threads"))},
                     {"core pinned to", Words(run.at("pinned_to_core"))},
@@ -105,7 +104,7 @@ void ReadCircumstances(const ParsedJson& json, RunFile* file) {
                     {"Bullet", Words(bullet.at("version")) + ", " + Words(bullet.at("library"))}};
 }
 
-ParsedJson Parse(const std::string& path) {
+Json Parse(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(path, error);
@@ -113,7 +112,7 @@ ParsedJson Parse(const std::string& path) {
   if (is_folder || !stream) {
     throw Failure(kUsage, fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
   }
-  ParsedJson json = ParsedJson::parse(stream, nullptr, false);
+  Json json = Json::parse(stream, nullptr, false);
   if (json.is_discarded()) {
     throw Failure(kUsage, fmt::format("'{}' is not JSON, or was cut: write it again with cairn "
                                       "run --json",
@@ -122,9 +121,9 @@ ParsedJson Parse(const std::string& path) {
   return json;
 }
 
-void CheckVersion(const ParsedJson& json, const std::string& path) {
+void CheckVersion(const Json& json, const std::string& path) {
   const bool is_run = json.is_object() && json.contains("scenes");
-  if (is_run && json.value("schema_version", ParsedJson()) == kRunSchema) return;
+  if (is_run && json.value("schema_version", Json()) == kRunSchema) return;
   if (!is_run) {
     throw Failure(
         kUsage,
@@ -132,22 +131,21 @@ void CheckVersion(const ParsedJson& json, const std::string& path) {
                     "run small)",
                     path));
   }
-  throw Failure(kUsage,
-                fmt::format("'{}' has schema_version {}, and this cairn reads {}: write it "
-                            "again with this cairn",
-                            path, Words(json.value("schema_version", ParsedJson())), kRunSchema));
+  throw Failure(kUsage, fmt::format("'{}' has schema_version {}, and this cairn reads {}: write it "
+                                    "again with this cairn",
+                                    path, Words(json.value("schema_version", Json())), kRunSchema));
 }
 
 }  // namespace
 
 RunFile ReadRunFile(const std::string& path) {
-  const ParsedJson json = Parse(path);
+  const Json json = Parse(path);
   CheckVersion(json, path);
   RunFile file;
   file.path = path;
   try {
     ReadCircumstances(json, &file);
-    for (const ParsedJson& scene : json.at("scenes")) file.scenes.push_back(ReadScene(scene));
+    for (const Json& scene : json.at("scenes")) file.scenes.push_back(ReadScene(scene));
     if (file.scenes.empty()) throw std::invalid_argument("it has no scene");
   } catch (const std::exception& error) {
     throw Failure(

@@ -17,7 +17,7 @@ namespace {
 using bench::At;
 using bench::World;
 
-constexpr double kFall = 9.81, kStep = 1.0 / 60;
+constexpr double kGravityInDoubles = 9.81, kStep = 1.0 / 60;
 
 Settings Parts(int parts) {
   Settings settings;
@@ -37,9 +37,9 @@ TEST(SubstepsInBullet, FallAsInSoManySteps) {
     btRigidBody* const ball = world.AddSphere(btScalar(0.5), {.mass = 3, .pose = At(0, 0, 0)});
     ball->setLinearVelocity(btVector3(2, 0, 0));
     for (int k = 0; k < 30; ++k) world.Step();
-    const double fallen = kFall * 0.5 * 0.5 / 2 * (1 + 1.0 / (30 * parts));
+    const double fallen = kGravityInDoubles * 0.5 * 0.5 / 2 * (1 + 1.0 / (30 * parts));
     EXPECT_NEAR(HeightOf(ball), -fallen, 1e-4);
-    EXPECT_NEAR(static_cast<double>(ball->getLinearVelocity().y()), -kFall * 0.5, 1e-4);
+    EXPECT_NEAR(static_cast<double>(ball->getLinearVelocity().y()), -kGravityInDoubles * 0.5, 1e-4);
     EXPECT_NEAR(static_cast<double>(ball->getCenterOfMassPosition().x()), 1, 1e-5);
   }
 }
@@ -81,8 +81,8 @@ TEST(SubstepsInBullet, SlideAsFarAsFrictionLets) {
                                         {.mass = 4, .pose = At(0, btScalar(0.1), 0)});
   box->setLinearVelocity(btVector3(3, 0, 0));
   for (int k = 0; k < 150; ++k) world.Step();
-  EXPECT_NEAR(static_cast<double>(box->getCenterOfMassPosition().x()), 9 / (2 * 0.25 * kFall),
-              0.03);
+  EXPECT_NEAR(static_cast<double>(box->getCenterOfMassPosition().x()),
+              9 / (2 * 0.25 * kGravityInDoubles), 0.03);
 }
 
 // A ball of 50 kg hangs on a joint: feedback is its weight, and the joint breaks where that is
@@ -97,11 +97,11 @@ TEST(SubstepsInBullet, FeelAndBreakAsInOneStep) {
         bench::ConnectedBodies::kPassThrough);
     btJointFeedback feedback;
     pin->setJointFeedback(&feedback);
-    pin->setBreakingImpulseThreshold(btScalar(share * 50 * kFall * kStep));
+    pin->setBreakingImpulseThreshold(btScalar(share * 50 * kGravityInDoubles * kStep));
     for (int k = 0; k < 60 && pin->isEnabled(); ++k) world.Step();
     EXPECT_EQ(pin->isEnabled(), share > 1);
     if (share > 1) {
-      EXPECT_NEAR(static_cast<double>(feedback.m_appliedForceBodyA.y()), 50 * kFall, 1);
+      EXPECT_NEAR(static_cast<double>(feedback.m_appliedForceBodyA.y()), 50 * kGravityInDoubles, 1);
       EXPECT_NEAR(HeightOf(ball), 5, 1e-3);
     }
   }

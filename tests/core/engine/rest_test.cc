@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFrame = 1 / 60.0;
+constexpr double kTimeStep = 1 / 60.0;
 
 struct Box {
   double mass;
@@ -41,7 +41,7 @@ class Tower {
   }
 
   void Run(double seconds) {
-    for (int i = 0; i < seconds / kFrame; ++i) Step();
+    for (int i = 0; i < seconds / kTimeStep; ++i) Step();
   }
   double speed() const {
     double fastest = 0;
@@ -94,10 +94,10 @@ class Tower {
       bodies.push_back({.inv_mass = 1 / box.mass,
                         .inv_inertia = Eigen::Matrix3d::Identity() * (6 / box.mass),
                         .velocity = box.velocity,
-                        .impulse = {0, -9.81 * kFrame * box.mass, 0},
+                        .impulse = {0, -9.81 * kTimeStep * box.mass, 0},
                         .id = bodies.size() + 1});
     }
-    const StepInput step{bodies, kFrame};
+    const StepInput step{bodies, kTimeStep};
     contacts_.Begin(step);
     joints_.Begin(step);
     for (int i = 0; i < static_cast<int>(boxes_.size()); ++i) AddContact(i);
@@ -114,8 +114,8 @@ class Tower {
   }
 
   static void Move(const Velocity& velocity, Box* box) {
-    box->position += kFrame * View(velocity.linear);
-    const double angle = kFrame * View(velocity.angular).norm();
+    box->position += kTimeStep * View(velocity.linear);
+    const double angle = kTimeStep * View(velocity.angular).norm();
     if (angle == 0) return;
     box->turn = Eigen::AngleAxisd(angle, View(velocity.angular).normalized()) * box->turn;
     box->turn.normalize();
