@@ -124,6 +124,7 @@ ContactProblem FastGroup::problem() const {
           .twists = contacts_.twists(),
           .joints = group_.compact_joints,
           .joint_rows = group_.joint_rows,
+          .joint_errors = group_.joint_errors,
           .time_step = static_cast<double>(steps_.last)};
 }
 

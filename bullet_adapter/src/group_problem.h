@@ -37,6 +37,7 @@ struct GroupProblem {
   std::vector<double> impulses;  ///< One per row: the start, and after solving the result [N s].
   std::vector<Joint> compact_joints;  ///< Those that are not written out.
   std::vector<JointRow> joint_rows;
+  std::vector<float> joint_errors;    ///< See ContactProblem.
   std::vector<float> joint_impulses;  ///< One per joint_rows, likewise.
   std::vector<JointRows> joints;
   std::vector<PointRows> points;
@@ -46,6 +47,7 @@ struct GroupProblem {
     impulses.clear();
     compact_joints.clear();
     joint_rows.clear();
+    joint_errors.clear();
     joint_impulses.clear();
     joints.clear();
     points.clear();

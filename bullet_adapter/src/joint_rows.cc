@@ -144,7 +144,7 @@ JointRows JointRowBuilder::AppendJoint(btTypedConstraint* joint, const btContact
   };
   const Ends ends{a, b, motion(end_a.number), motion(end_b.number), end_a.number, end_b.number};
   TakeBackLess(ends.body_a, ends.body_b);
-  LookAtLocked(ends, damping);
+  LookAtLocked(ends);
   result.written_out = form == ContactForm::kRows || !IsCompact();
   if (result.written_out) {
     result.first_row = static_cast<int>(group_->rows.size());
@@ -169,7 +169,7 @@ void JointRowBuilder::TakeBackLess(int body_a, int body_b) {
   }
 }
 
-void JointRowBuilder::LookAtLocked(const Ends& ends, btScalar damping) {
+void JointRowBuilder::LookAtLocked(const Ends& ends) {
   const btVector3 none(0, 0, 0);
   const auto has_factor = [](const btRigidBody& rigid) {
     return rigid.getAngularFactor() != btVector3(1, 1, 1);
@@ -188,7 +188,7 @@ void JointRowBuilder::LookAtLocked(const Ends& ends, btScalar damping) {
         return;
       }
       // it keeps its spin, which is no longer seen
-      slot.error -= damping * HalfSpeed(rigid, motion, none, axis);
+      slot.unseen += HalfSpeed(rigid, motion, none, axis);
       std::fill_n(angular, 3, btScalar(0));
     };
     look(ends.a, ends.motion_a, slot.angular_a);
@@ -266,6 +266,7 @@ void JointRowBuilder::AppendCompact(const Ends& ends, int max_sweeps, btScalar d
       !kTargetsInDouble && StandsStill(ends.a, ends.motion_a) && StandsStill(ends.b, ends.motion_b);
   const btScalar inv_mass_a = ends.a.getInvMass(), inv_mass_b = ends.b.getInvMass();
   rows.resize(rows.size() + slots_.size());
+  group_->joint_errors.resize(rows.size());
   group_->joint_impulses.resize(rows.size());
   for (size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
@@ -285,8 +286,14 @@ void JointRowBuilder::AppendCompact(const Ends& ends, int max_sweeps, btScalar d
     Put(slot.linear_b, row.linear_b);
     Put(slot.angular_b, row.angular_b);
     double target = slot.error;
-    if (!still) target -= static_cast<double>(UnseenSpeed(ends, slot) * damping);
+    if (!still || slot.unseen != 0) {
+      target -= static_cast<double>(UnseenSpeed(ends, slot) * damping);
+    }
     row.target = static_cast<float>(std::clamp(target, -kMostTarget, kMostTarget));
+    if (slot.drives || joint.is_bounded(static_cast<int>(i))) continue;
+    const double error = slot.error;
+    group_->joint_errors[joint.first_row + i] =
+        static_cast<float>(std::clamp(error, -kMostTarget, kMostTarget));
   }
 }
 
@@ -296,7 +303,7 @@ btScalar JointRowBuilder::Diagonal(const Ends& ends, const Slot& slot) {
 }
 
 btScalar JointRowBuilder::UnseenSpeed(const Ends& ends, const Slot& slot) {
-  btScalar speed = 0;
+  btScalar speed = slot.unseen;
   if (kTargetsInDouble || ends.motion_a == nullptr) {
     speed += HalfSpeed(ends.a, ends.motion_a, ToVector(slot.linear_a), ToVector(slot.angular_a));
   }
@@ -329,7 +336,7 @@ void JointRowBuilder::AppendRow(const Ends& ends, const Row& common, const Slot&
     if (!(btFabs(diagonal) > SIMD_EPSILON)) return;
   }
   const btScalar speed = HalfSpeed(ends.a, ends.motion_a, linear_a, angular_a) +
-                         HalfSpeed(ends.b, ends.motion_b, linear_b, angular_b);
+                         HalfSpeed(ends.b, ends.motion_b, linear_b, angular_b) + slot.unseen;
   const double target = static_cast<double>(slot.error) - static_cast<double>(speed * damping);
   row.target = std::clamp(target, -kMostTarget, kMostTarget);
   row.compliance = static_cast<double>(slot.cfm) * diagonal;

@@ -44,8 +44,9 @@ class JointRowBuilder {
   struct alignas(16) Slot {
     btScalar linear_a[4], angular_a[4], linear_b[4], angular_b[4];
     btScalar error, cfm, lower, upper;
-    btScalar share;  ///< Of the diagonal of a row that only turns: what angular factors leave.
-    bool drives;     ///< Has two bounds of its own, as motors and springs do: its error is a speed.
+    btScalar share;   ///< Of the diagonal of a row that only turns: what angular factors leave.
+    btScalar unseen;  ///< Of J v: of bodies that were taken out.
+    bool drives;  ///< Has two bounds of its own, as motors and springs do: its error is a speed.
   };
 
   /// The bodies of a joint. Motions of those that have a number, none for others.
@@ -63,8 +64,8 @@ class JointRowBuilder {
   /// Where a body is strained, joints take back less of their errors.
   void TakeBackLess(int body_a, int body_b);
   /// Takes bodies out of rows that only turn, about axes that they are locked about, and finds
-  /// Slot::share.
-  void LookAtLocked(const Ends& ends, btScalar damping);
+  /// Slot::share and Slot::unseen.
+  void LookAtLocked(const Ends& ends);
   bool IsCompact() const;
   static btScalar Diagonal(const Ends& ends, const Slot& slot);
   /// What the core does not see of J v: static bodies have no number there, and may have a

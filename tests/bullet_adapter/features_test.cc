@@ -49,6 +49,40 @@ TEST(Features, JointFeedbackCarriesTheWeight) {
   EXPECT_NEAR(feedback.m_appliedForceBodyA.y(), 2 * kGravity, 1e-3);
 }
 
+// A kinematic body that moves, or what a body does itself, is no error, and nor is what a motor
+// without a limit asks for.
+TEST(Features, JointsTellWhatOfTheirTargetsTakesBackErrors) {
+  bullet::ConstraintSolver solver;
+  World world(&solver);
+  const btVector3 half = btVector3(1, 1, 1) / 4;
+  btRigidBody* const hook = world.AddBox(half, {.mass = 0, .pose = At(0, 5, 0), .surface = {}});
+  btRigidBody* const box = world.AddBox(half, {.mass = 2, .pose = At(0, 4, 0), .surface = {}});
+  hook->setLinearVelocity({0, 3, 0});
+  box->setLinearVelocity({0, 2, 0});
+  // the box is 10 cm too low
+  world.AddJoint(std::make_unique<btPoint2PointConstraint>(*hook, *box, btVector3(0, 0, 0),
+                                                           btVector3(0, btScalar(0.9), 0)),
+                 ConnectedBodies::kCollide);
+  auto hinge = std::make_unique<btHingeConstraint>(*box, btVector3(0, btScalar(0.9), 0),
+                                                   btVector3(0, 1, 0), true);
+  hinge->enableAngularMotor(true, 7, BT_LARGE_FLOAT);
+  world.AddJoint(std::move(hinge), ConnectedBodies::kCollide);
+  world.Step();
+  const ContactProblem problem = solver.problem();
+  ASSERT_EQ(problem.joints.size(), 2u);
+  ASSERT_EQ(problem.joint_errors.size(), problem.joint_rows.size());
+  const double closes = 0.1 * 60 * static_cast<double>(world.solver_info().m_erp);
+  const bool pin_first = problem.joints[0].rows == 3;  // Bullet sorts them as it likes
+  const Joint &of_pin = problem.joints[pin_first ? 0 : 1], &of_hinge = problem.joints[pin_first];
+  const int pin = of_pin.first_row;
+  EXPECT_NEAR(std::abs(static_cast<double>(problem.joint_errors[pin + 1])), closes, 1e-4);
+  EXPECT_GT(std::abs(problem.joint_rows[pin + 1].target), 2);
+  const int turns = of_hinge.first_row + 5;
+  ASSERT_EQ(of_hinge.rows, 6);
+  EXPECT_GT(std::abs(problem.joint_rows[turns].target), 5);
+  EXPECT_EQ(problem.joint_errors[turns], 0);
+}
+
 TEST(Features, JointBreaksAboveItsThresholdAndNotBelow) {
   const auto enabled_after = [](btScalar threshold) {
     bullet::ConstraintSolver solver;

@@ -223,5 +223,32 @@ TEST(RelaxationInBullet, TakesBackDepthAndLeavesNoSpeed) {
   }
 }
 
+// A box that hangs 20 cm below its pin.
+TEST(RelaxationInBullet, ClosesJointsAndLeavesNoSpeed) {
+  for (const bool relax : {false, true}) {
+    Settings settings;
+    settings.relax = relax;
+    bullet::ConstraintSolver solver(settings);
+    World world(&solver);
+    const btScalar half(0.5);
+    btRigidBody* const box =
+        world.AddBox(btVector3(half, half, half), {.mass = 4, .pose = At(0, 1, 0)});
+    auto pin = std::make_unique<btPoint2PointConstraint>(*box, btVector3(0, half, 0));
+    pin->setPivotB(btVector3(0, btScalar(1.7), 0));
+    world.AddJoint(std::move(pin), bench::ConnectedBodies::kCollide);
+    double fastest = 0;
+    for (int k = 0; k < 120; ++k) {
+      world.Step();
+      fastest = std::max(fastest, static_cast<double>(box->getLinearVelocity().y()));
+    }
+    EXPECT_NEAR(HeightOf(box), 1.2, 0.001) << relax;
+    if (relax) {
+      EXPECT_LT(fastest, 0.01);
+    } else {
+      EXPECT_GT(fastest, 0.5) << "nothing to take back";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cairn::test

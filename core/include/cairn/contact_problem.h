@@ -60,6 +60,8 @@ struct ContactProblem {
   std::span<const ContactTwist> twists = {};  ///< One per point, or none.
   std::span<const Joint> joints = {};
   std::span<const JointRow> joint_rows = {};  ///< Of the joints; others are not looked at.
+  /// One per joint row, or none: what of its target takes back errors; if none: see Joint::errors.
+  std::span<const float> joint_errors = {};
   double time_step = 0;  ///< [s], >= 0; 0: unknown. Tension, substeps and weighed steps go by it.
 };
 

@@ -31,12 +31,10 @@ struct Joint {
   int rows = 1;               ///< In [1, kMostRows].
   std::uint32_t bounded = 0;  ///< Bit i: row i has bounds, 0 for none.
   std::uint32_t angular = 0;  ///< Bit i: row i only turns, and counts in [rad/s].
-  std::uint32_t errors = 0;   ///< Bit i: row i takes back an error of position.
-  /// Share of what the bodies do without constraints that rows work against; 1: all.
-  float damping = 1;
-  bool soft = false;  ///< Rows have a compliance.
-  /// linear_b is -linear_a, whatever it says: rows push with opposite forces, and are swept faster.
-  bool opposite = false;
+  std::uint32_t errors = 0;   ///< Bit i: the target of row i takes back an error of position.
+  float damping = 1;      ///< Share of the free motion of bodies that rows work against; 1: all.
+  bool soft = false;      ///< Rows have a compliance.
+  bool opposite = false;  ///< linear_b is -linear_a, whatever it says: rows are swept faster.
   detail::RowHost host = {};
 
   bool is_bounded(int row) const { return (bounded >> row & 1) != 0; }

@@ -8,6 +8,7 @@
 
 #include "cairn/detail/eigen.h"
 #include "cycle/end_velocity.h"
+#include "problem/joint_errors.h"
 
 namespace cairn {
 namespace {
@@ -36,13 +37,32 @@ class Motion {
   }
 
   double Along(const Joint& joint, const JointRow& row) const {
-    const Vector3d linear_a = FromFloats(row.linear_a);
-    const Vector3d linear_b = joint.opposite ? Vector3d(-linear_a) : FromFloats(row.linear_b);
-    return Along(joint.body_a, linear_a, FromFloats(row.angular_a)) +
-           Along(joint.body_b, linear_b, FromFloats(row.angular_b));
+    return Along(joint, row,
+                 [this](int body, const auto&... of_row) { return Along(body, of_row...); });
+  }
+
+  /// What of the free motion of the bodies a row of a joint does not work against.
+  double Left(const Joint& joint, const JointRow& row) const {
+    if (joint.damping == 1 || problem_.motions.empty()) return 0;
+    const double free =
+        Along(joint, row, [this](int body, const Vector3d& linear, const Vector3d& angular) {
+          if (body == kWorld) return 0.0;
+          const ContactMotion& motion = problem_.motions[body];
+          return linear.dot(FromFloats(motion.free_velocity)) +
+                 angular.dot(FromFloats(motion.free_spin));
+        });
+    return (1 - static_cast<double>(joint.damping)) * free;
   }
 
  private:
+  template <class Function>
+  static double Along(const Joint& joint, const JointRow& row, const Function& of_body) {
+    const Vector3d linear_a = FromFloats(row.linear_a);
+    const Vector3d linear_b = joint.opposite ? Vector3d(-linear_a) : FromFloats(row.linear_b);
+    return of_body(joint.body_a, linear_a, FromFloats(row.angular_a)) +
+           of_body(joint.body_b, linear_b, FromFloats(row.angular_b));
+  }
+
   const ContactProblem& problem_;
   std::span<const Velocity> velocities_;
 };
@@ -96,19 +116,21 @@ Correction OfContacts(const ContactProblem& problem, const Motion& motion,
 Correction OfJoints(const ContactProblem& problem, const Motion& motion, bool turns) {
   const Joint* worst = nullptr;
   const JointRow* furthest = nullptr;
-  float most = 0;
+  float error = 0;
   for (const Joint& joint : problem.joints) {
-    const std::uint32_t wanted = joint.errors & (turns ? joint.angular : ~joint.angular);
-    for (int i = 0; wanted != 0 && i < joint.rows; ++i) {
-      const JointRow& row = problem.joint_rows[joint.first_row + i];
-      if ((wanted >> i & 1) == 0 || !(std::abs(row.target) > most)) continue;
-      most = std::abs(row.target);
+    for (int i = 0; i < joint.rows; ++i) {
+      const float of_row = ErrorOf(problem, joint, i);
+      if (joint.is_angular(i) != turns || !(std::abs(of_row) > std::abs(error))) continue;
+      error = of_row;
       worst = &joint;
-      furthest = &row;
+      furthest = &problem.joint_rows[joint.first_row + i];
     }
   }
-  return worst == nullptr ? Correction()
-                          : CorrectionOf(furthest->target, motion.Along(*worst, *furthest));
+  if (worst == nullptr) return {};
+  // the rest of its target is no error
+  const double other =
+      static_cast<double>(furthest->target - error) + motion.Left(*worst, *furthest);
+  return CorrectionOf(error, motion.Along(*worst, *furthest) - other);
 }
 
 }  // namespace

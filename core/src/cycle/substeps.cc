@@ -7,6 +7,7 @@
 #include "cairn/detail/eigen.h"
 #include "cycle/tension/joint_arms.h"
 #include "problem/float_vectors.h"
+#include "problem/joint_errors.h"
 
 namespace cairn {
 namespace {
@@ -35,6 +36,7 @@ void Substeps::Begin(const ContactProblem& problem, const Impulses& start, int p
   motions_.assign(problem.motions.begin(), problem.motions.end());
   twists_.assign(problem.twists.begin(), problem.twists.end());
   joint_rows_.assign(problem.joint_rows.begin(), problem.joint_rows.end());
+  joint_errors_.assign(problem.joint_errors.begin(), problem.joint_errors.end());
   travels_.resize(bodies_.size());
   means_.assign(bodies_.size(), {});
   velocities_.assign(bodies_.size(), {});
@@ -127,14 +129,15 @@ ContactProblem Substeps::problem() const {
           .twists = twists_,
           .joints = whole_.joints,
           .joint_rows = joint_rows_,
+          .joint_errors = joint_errors_,
           .time_step = whole_.time_step * share()};
 }
 
 bool Substeps::HasErrors(double least) const {
-  for (const Joint& joint : whole_.joints) {
-    for (int i = 0; i < joint.rows && joint.errors != 0; ++i) {
-      const double target = joint_rows_[joint.first_row + i].target;
-      if ((joint.errors >> i & 1) != 0 && std::abs(target) > least) return true;
+  const ContactProblem part = problem();
+  for (const Joint& joint : part.joints) {
+    for (int i = 0; i < joint.rows; ++i) {
+      if (std::abs(static_cast<double>(ErrorOf(part, joint, i))) > least) return true;
     }
   }
   for (const Manifold& manifold : whole_.manifolds) {
@@ -152,11 +155,13 @@ bool Substeps::IsDepth(const Manifold& manifold, int point) const {
 void Substeps::Relax() {
   relaxed_ = true;
   moves_ = velocities_;
-  for (const Joint& joint : whole_.joints) {
+  const ContactProblem part = problem();
+  for (const Joint& joint : part.joints) {
     for (int i = 0; i < joint.rows; ++i) {
-      if ((joint.errors >> i & 1) != 0) joint_rows_[joint.first_row + i].target = 0;
+      joint_rows_[joint.first_row + i].target -= ErrorOf(part, joint, i);
     }
   }
+  std::fill(joint_errors_.begin(), joint_errors_.end(), 0.0f);
   for (const Manifold& manifold : whole_.manifolds) {
     for (int p = 0; p < manifold.points; ++p) {
       if (IsDepth(manifold, p)) points_[manifold.first_point + p].bias = 0;
@@ -169,6 +174,7 @@ void Substeps::Advance() {
   ++part_;
   MoveBodies();
   if (done()) return;
+  joint_errors_.assign(whole_.joint_errors.begin(), whole_.joint_errors.end());
   AimRows();
   AimJoints();
   AimPoints();

@@ -92,6 +92,7 @@ class Substeps {
   Array<ContactMotion> motions_;
   Array<ContactTwist> twists_;
   Array<JointRow> joint_rows_;
+  Array<float> joint_errors_;
   Array<double> rows_x_, rows_sum_;
   Array<ContactImpulse> points_x_, points_sum_;  ///< of sums: direction is a push [N s]
   Array<TwistImpulse> twists_x_, twists_sum_;

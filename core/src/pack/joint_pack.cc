@@ -36,6 +36,18 @@ void PrefetchRows(const BlockPacker& packer, int block) {
   }
 }
 
+/// Of a block of joints, ContactProblem::joint_errors; all else the kernel looks at.
+bool ErrorsAreFinite(const BlockPacker& packer, int block) {
+  const std::span<const float> errors = packer.problem.joint_errors;
+  if (errors.empty()) return true;
+  float zero = 0;
+  for (int lane = 0; lane < packer.plan.blocks()[block].lanes; ++lane) {
+    const Joint& joint = JointOf(packer, block, lane);
+    for (int i = 0; i < joint.rows; ++i) zero += 0 * errors[joint.first_row + i];
+  }
+  return zero == 0;
+}
+
 }  // namespace
 
 PackResult PackJoints(const BlockPacker& packer, int index, const Impulses& start,
@@ -61,6 +73,7 @@ PackResult PackJoints(const BlockPacker& packer, int index, const Impulses& star
     lanes.start[lane] = &start.joint_rows[joint.first_row];
   }
   const bool fits =
+      ErrorsAreFinite(packer, index) &&
       packer.pack_joints(lanes, blocks->data.data() + block.data, blocks->x.data() + block.x);
   return fits ? PackResult::kDone : PackResult::kOutOfRange;
 }

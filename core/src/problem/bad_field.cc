@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "problem/joint_errors.h"
+
 namespace cairn {
 namespace {
 
@@ -130,6 +132,7 @@ BadSetting FindBadFieldOfJoint(const ContactProblem& problem, const Impulses& st
     if (!of.opposite) search.AllFinite("linear_b of a row", row.linear_b);
     search.AllFinite("angular_b of a row", row.angular_b);
     search.Finite("target of a row", row.target);
+    search.Finite("joint_errors of a row", ErrorOf(problem, of, i));
     if (of.soft) search.Finite("compliance of a row", row.compliance);
     if (of.soft) search.AtLeastZero(Status::kBadCompliance, "compliance of a row", row.compliance);
     if (!of.is_bounded(i)) continue;

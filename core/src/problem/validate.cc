@@ -7,6 +7,7 @@
 #include "cairn/detail/bad_input.h"
 #include "cairn/detail/eigen.h"
 #include "problem/bad_field.h"
+#include "problem/joint_errors.h"
 
 namespace cairn {
 namespace {
@@ -106,6 +107,7 @@ Status CheckJointRows(const ContactProblem& problem, const Joint& joint, const I
   for (int i = 0; i < joint.rows; ++i) {
     const JointRow& row = problem.joint_rows[joint.first_row + i];
     float zero = 0 * row.target + 0 * start.joint_rows[joint.first_row + i];
+    zero += 0 * ErrorOf(problem, joint, i);
     if (joint.soft) zero += 0 * row.compliance;
     for (int k = 0; k < 3; ++k) {
       zero += 0 * row.linear_a[k] + 0 * row.angular_a[k];
@@ -196,6 +198,8 @@ BadSetting FindBadSize(const ContactProblem& problem, const Impulses& impulses) 
   if (joints) {
     check("impulses.joint_rows.size()", impulses.joint_rows.size(), "problem.joint_rows.size()",
           problem.joint_rows.size());
+    check_or_none("problem.joint_errors.size()", problem.joint_errors.size(),
+                  "0 or problem.joint_rows.size()", problem.joint_rows.size());
   }
   check_or_none("problem.motions.size()", problem.motions.size(), "0 or problem.bodies.size()",
                 problem.bodies.size());

@@ -19,6 +19,7 @@ void Recording::Assign(const ContactProblem& problem, const Impulses& start) {
   twist_impulses.assign(start.twists.begin(), start.twists.end());
   joints.assign(problem.joints.begin(), problem.joints.end());
   joint_rows.assign(problem.joint_rows.begin(), problem.joint_rows.end());
+  joint_errors.assign(problem.joint_errors.begin(), problem.joint_errors.end());
   joint_impulses.assign(start.joint_rows.begin(), start.joint_rows.end());
   time_step = problem.time_step;
 }
@@ -42,6 +43,7 @@ Status WriteOutRows(const Recording& recording, Recording* rows) {
     copy.motions.clear();
     copy.joints.clear();
     copy.joint_rows.clear();
+    copy.joint_errors.clear();
     copy.joint_impulses.clear();
   }
   *rows = std::move(copy);

@@ -325,12 +325,14 @@ RecordingStatus Decode(std::span<const std::byte> bytes, Recording* recording) {
   contents.ReadIfUsed(kStrains, &strains);
   contents.ReadIfUsed(kJointErrors, &errors);
   contents.ReadIfUsed(kPointSpeeds, &speeds);
+  contents.Read(kJointRowErrors, &read.joint_errors);
   contents.Expect(kMotions, read.motions.empty() ? 0 : read.bodies.size());
   contents.Expect(kRowImpulses, read.rows.size());
   contents.Expect(kPointImpulses, read.points.size());
   contents.Expect(kTwists, read.twists.empty() ? 0 : read.points.size());
   contents.Expect(kTwistImpulses, read.twists.size());
   contents.Expect(kJointImpulses, read.joint_rows.size());
+  contents.Expect(kJointRowErrors, read.joint_errors.empty() ? 0 : read.joint_rows.size());
   contents.Expect(kStep, 1);
   contents.Expect(kStrains, strains.empty() ? 0 : read.bodies.size());
   contents.Expect(kJointErrors, errors.empty() ? 0 : read.joints.size());

@@ -117,6 +117,10 @@ RecordingStatus Check(const Recording& recording) {
   if (recording.joint_impulses.size() != recording.joint_rows.size()) {
     return Unfit("the start does not have one impulse per row of a joint");
   }
+  if (!recording.joint_errors.empty() &&
+      recording.joint_errors.size() != recording.joint_rows.size()) {
+    return Unfit("there is neither one error per row of a joint nor none");
+  }
   if (!recording.motions.empty() && recording.motions.size() != recording.bodies.size()) {
     return Unfit("there is neither one motion per body nor none");
   }
@@ -164,6 +168,7 @@ void AddSections(const Recording& recording, SectionWriter* to) {
   add(kStrains, FieldsOf(recording.bodies, &Body::strain));
   add(kJointErrors, FieldsOf(recording.joints, &Joint::errors));
   add(kPointSpeeds, FieldsOf(recording.manifolds, &Manifold::speeds));
+  add(kJointRowErrors, recording.joint_errors);
 }
 
 }  // namespace

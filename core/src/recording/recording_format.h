@@ -12,8 +12,9 @@
 namespace cairn {
 
 /// Written, and the oldest that is read: it knew no joints. The second knew no substeps, the third
-/// no geometric stiffness, the fourth not which errors are taken back.
-inline constexpr std::uint32_t kRecordingVersion = 5, kOldestVersion = 1;
+/// no geometric stiffness, the fourth not which errors are taken back, the fifth not what of
+/// targets.
+inline constexpr std::uint32_t kRecordingVersion = 6, kOldestVersion = 1;
 /// Where earlier ones have Tuning::units_per_metre there is something else.
 inline constexpr std::uint32_t kVersionOfUnits = 4;
 /// No text begins like that, and whatever rewrites line ends destroys it.
@@ -47,17 +48,18 @@ enum Section {
   kStrains,
   kJointErrors,
   kPointSpeeds,
+  kJointRowErrors,
   kSections
 };
 /// That a version knows: the first ones.
 inline constexpr int SectionsOf(std::uint32_t version) {
-  constexpr int kKnown[] = {kJoints, kStep, kJointErrors, kJointErrors, kSections};
+  constexpr int kKnown[] = {kJoints, kStep, kJointErrors, kJointErrors, kJointRowErrors, kSections};
   return kKnown[version - kOldestVersion];
 }
 
 inline constexpr std::array<std::string_view, kSections> kSectionNames = {
     "INFO", "FRAM", "SETT", "REPL", "LAWS", "BODY", "MOTN", "ROWS", "RIMP", "MANI", "PNTS",
-    "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP", "STEP", "STRN", "JERR", "PSPD"};
+    "PIMP", "TWST", "TIMP", "JNTS", "JROW", "JIMP", "STEP", "STRN", "JERR", "PSPD", "RERR"};
 
 /// Adds up the bytes of fields.
 class FieldCounter {

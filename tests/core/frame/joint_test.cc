@@ -151,6 +151,37 @@ TEST(Joint, ThatIsRefusedIsNamedByItsField) {
             "joint 7: first_row is -3, must be 0 to problem.joint_rows.size() - rows");
 }
 
+TEST(Joint, HasAnErrorForEachRowOrNone) {
+  ManifoldScene scene = Hanging();
+  scene.joint_errors.assign(5, 0);
+  std::vector<Velocity> velocities;
+  EXPECT_EQ(Describe(Solve(Settings{}, &scene, &velocities)),
+            "problem.joint_errors.size() is 5, must be 0 or problem.joint_rows.size()");
+}
+
+// Both hang, and the upper one is to rise: of that half takes back an error.
+TEST(Joint, TellsWhatOfItsTargetTakesBackAnError) {
+  ManifoldScene scene = Hanging();
+  scene.joint_rows[1].target = 1;
+  Settings settings;
+  settings.max_sweeps = 200;
+  settings.tolerance = 2e-5;
+  std::vector<Velocity> velocities;
+  EXPECT_EQ(Solve(settings, &scene, &velocities).gap.asked, 0);
+  scene.joint_errors.assign(scene.joint_rows.size(), 0);
+  scene.joint_errors[1] = 0.5f;
+  const Report report = Solve(settings, &scene, &velocities);
+  EXPECT_EQ(report.gap.asked, 0.5);
+  EXPECT_NEAR(report.gap.done, 0.5, 1e-3);
+
+  // and without the velocity of it, it still rises by what is left
+  settings.relax = true;
+  scene.joint_impulses.assign(scene.joint_rows.size(), 0);
+  ASSERT_TRUE(Solve(settings, &scene, &velocities).ok());
+  EXPECT_NEAR(velocities[0].linear.y(), 0.5, 1e-3);
+  EXPECT_NEAR(velocities[1].linear.y(), 0.5, 1e-3);
+}
+
 class BadJoint : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadJoint, IsRefusedAndNothingIsWritten) {
@@ -193,6 +224,11 @@ const Bad kBad[] = {
     {"NanLinear", Status::kNotFinite, [](ManifoldScene* s) { RowOf(s).linear_a[1] = kNan; }},
     {"NanAngular", Status::kNotFinite, [](ManifoldScene* s) { RowOf(s).angular_b[2] = kNan; }},
     {"NanTarget", Status::kNotFinite, [](ManifoldScene* s) { RowOf(s).target = kNan; }},
+    {"NanError", Status::kNotFinite,
+     [](ManifoldScene* s) {
+       s->joint_errors.assign(s->joint_rows.size(), 0);
+       s->joint_errors[s->joints[5].first_row] = kNan;
+     }},
     {"NanLo", Status::kNotFinite, [](ManifoldScene* s) { RowOf(s).lo = kNan; }},
     {"NanHi", Status::kNotFinite, [](ManifoldScene* s) { RowOf(s).hi = kNan; }},
     {"NanCompliance", Status::kNotFinite, [](ManifoldScene* s) { RowOf(s).compliance = kNan; }},

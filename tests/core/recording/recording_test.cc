@@ -155,14 +155,14 @@ TEST(Recording, HasTheLayoutOfItsPage) {
   recording.replay = Replay{.work = 5, .fits = {1}};
   const Bytes bytes = EncodeAll(recording);
   EXPECT_EQ(NumberAt(bytes, 0, 8), 0x0a1a0a0d4e524389u);
-  EXPECT_EQ(NumberAt(bytes, 8, 4), 5u);
-  EXPECT_EQ(NumberAt(bytes, 12, 4), 21u);
+  EXPECT_EQ(NumberAt(bytes, 8, 4), 6u);
+  EXPECT_EQ(NumberAt(bytes, 12, 4), 22u);
   EXPECT_EQ(NumberAt(bytes, 16, 8), bytes.size());
   const std::pair<const char*, unsigned> sizes[] = {
       {"INFO", 1},  {"FRAM", 8},   {"SETT", 104}, {"REPL", 1},  {"LAWS", 8},  {"BODY", 208},
       {"MOTN", 48}, {"ROWS", 160}, {"RIMP", 8},   {"MANI", 20}, {"PNTS", 64}, {"PIMP", 28},
       {"TWST", 16}, {"TIMP", 12},  {"JNTS", 36},  {"JROW", 64}, {"JIMP", 4},  {"STEP", 16},
-      {"STRN", 8},  {"JERR", 4},   {"PSPD", 1}};
+      {"STRN", 8},  {"JERR", 4},   {"PSPD", 1},   {"RERR", 4}};
   std::size_t entry = 32, data = 32 + 32 * std::size(sizes);
   for (const auto& [name, size] : sizes) {
     EXPECT_EQ(TableEntryOf(bytes, name), entry) << name;
@@ -219,8 +219,8 @@ TEST(Recording, OfVersion1IsRead) {
   recording.joints.clear();
   recording.joint_rows.clear();
   recording.joint_impulses.clear();
-  // joints, their rows and impulses, the step, strains, errors, speeds
-  const Recording read = Decoded(InVersion(1, 7, kBytesOfStep, EncodeAll(recording)));
+  // joints, their rows and impulses, the step, strains, errors, speeds, errors of rows
+  const Recording read = Decoded(InVersion(1, 8, kBytesOfStep, EncodeAll(recording)));
   EXPECT_TRUE(read.joints.empty());
   EXPECT_FALSE(read.settings.geometric_stiffness) << "nobody had it";
   recording.settings.geometric_stiffness = false;
@@ -229,7 +229,7 @@ TEST(Recording, OfVersion1IsRead) {
 
 TEST(Recording, OfVersion2IsRead) {
   Recording recording = RandomRecording(5);
-  const Recording read = Decoded(InVersion(2, 4, kBytesOfStep, EncodeAll(recording)));
+  const Recording read = Decoded(InVersion(2, 5, kBytesOfStep, EncodeAll(recording)));
   EXPECT_EQ(read.settings.substeps, 1);
   EXPECT_FALSE(read.settings.geometric_stiffness) << "nobody had it";
   recording.settings.geometric_stiffness = false;
@@ -239,14 +239,37 @@ TEST(Recording, OfVersion2IsRead) {
 TEST(Recording, OfVersion3IsRead) {
   Recording recording = RandomRecording(5);
   recording.settings.geometric_stiffness = false;  // what is now a flag was 0
-  const Recording read = Decoded(InVersion(3, 2, 0, EncodeAll(recording)));
+  const Recording read = Decoded(InVersion(3, 3, 0, EncodeAll(recording)));
   EXPECT_FALSE(read.settings.geometric_stiffness);
   EXPECT_EQ(EncodeAll(read), EncodeAll(recording));
 }
 
 TEST(Recording, OfVersion4IsRead) {
   const Recording recording = RandomRecording(5);
-  EXPECT_EQ(EncodeAll(Decoded(InVersion(4, 2, 0, EncodeAll(recording)))), EncodeAll(recording));
+  EXPECT_EQ(EncodeAll(Decoded(InVersion(4, 3, 0, EncodeAll(recording)))), EncodeAll(recording));
+}
+
+TEST(Recording, OfVersion5IsRead) {
+  const Recording recording = RandomRecording(5);
+  EXPECT_EQ(EncodeAll(Decoded(InVersion(5, 1, 0, EncodeAll(recording)))), EncodeAll(recording));
+}
+
+TEST(Recording, KeepsWhatOfTargetsTakesBackErrors) {
+  Recording recording = RandomRecording(6);
+  recording.joint_errors.assign(recording.joint_rows.size(), 0);
+  recording.joint_errors[1] = 0.75f;
+  const Bytes bytes = EncodeAll(recording);
+  EXPECT_EQ(std::bit_cast<float>(
+                static_cast<std::uint32_t>(NumberAt(bytes, DataOf(bytes, "RERR") + 4, 4))),
+            0.75f);
+  const Recording read = Decoded(bytes);
+  EXPECT_EQ(read.joint_errors, recording.joint_errors);
+  EXPECT_EQ(read.problem().joint_errors.data(), read.joint_errors.data());
+  EXPECT_EQ(EncodeAll(read), bytes);
+
+  recording.joint_errors.pop_back();
+  Bytes none;
+  EXPECT_EQ(Encode(recording, &none).fault, RecordingFault::kBadValue);
 }
 
 TEST(Recording, KeepsWhichErrorsAreTakenBack) {

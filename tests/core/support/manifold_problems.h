@@ -25,9 +25,11 @@ struct ManifoldScene {
   std::vector<Joint> joints;
   std::vector<JointRow> joint_rows;
   std::vector<float> joint_impulses;
+  std::vector<float> joint_errors;  ///< one per row, or none
 
   ContactProblem problem() const {
-    return {bodies, rows, manifolds, points, law, motions, twists, joints, joint_rows};
+    return {bodies,  rows,   manifolds, points,     law,
+            motions, twists, joints,    joint_rows, joint_errors};
   }
   Impulses impulses() { return {row_impulses, point_impulses, twist_impulses, joint_impulses}; }
 };

@@ -32,6 +32,7 @@ struct Recording {
   std::vector<TwistImpulse> twist_impulses;    ///< The start, one per twist.
   std::vector<Joint> joints;
   std::vector<JointRow> joint_rows;
+  std::vector<float> joint_errors;
   std::vector<float> joint_impulses;  ///< The start, one per row of a joint.
   double time_step = 0;               ///< ContactProblem::time_step [s].
 
@@ -41,8 +42,8 @@ struct Recording {
   std::optional<Replay> replay;
 
   ContactProblem problem() const {
-    return {bodies,  rows,   manifolds, points,     contact_law,
-            motions, twists, joints,    joint_rows, time_step};
+    return {bodies, rows,   manifolds,  points,       contact_law, motions,
+            twists, joints, joint_rows, joint_errors, time_step};
   }
   /// The start, in the memory of the recording: a Solve() puts its results there.
   Impulses impulses() { return {row_impulses, point_impulses, twist_impulses, joint_impulses}; }

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "cairn/detail/spans.h"
+#include "problem/joint_errors.h"
 
 namespace cairn {
 
@@ -32,12 +33,12 @@ ContactProblem Tension::Stiffen(const ContactProblem& problem, const Settings& s
 
 void Tension::TakeBackLess(ContactProblem* problem) {
   joint_rows_.clear();
+  joint_errors_.assign(problem->joint_errors.begin(), problem->joint_errors.end());
   const size_t bodies = problem->bodies.size(), rows = problem->joint_rows.size();
   const auto strain = [&](int body) {
     return static_cast<size_t>(body) < bodies ? problem->bodies[body].strain : 0;
   };
   for (const Joint& joint : problem->joints) {
-    if (joint.errors == 0) continue;
     const double share = ShareOfErp(std::max(strain(joint.body_a), strain(joint.body_b)));
     if (share == 1) continue;
     if (joint_rows_.empty()) {
@@ -45,11 +46,16 @@ void Tension::TakeBackLess(ContactProblem* problem) {
     }
     for (int i = 0; i < std::min(joint.rows, Joint::kMostRows); ++i) {
       const size_t row = static_cast<size_t>(joint.first_row) + i;
-      if (row >= rows || (joint.errors >> i & 1) == 0) continue;
-      joint_rows_[row].target = static_cast<float>(share * joint_rows_[row].target);
+      if (row >= rows) continue;
+      const float error = ErrorOf(*problem, joint, i);
+      const auto taken_back = static_cast<float>(share * error);
+      joint_rows_[row].target = (joint_rows_[row].target - error) + taken_back;
+      if (!joint_errors_.empty()) joint_errors_[row] = taken_back;
     }
   }
-  if (!joint_rows_.empty()) problem->joint_rows = joint_rows_;
+  if (joint_rows_.empty()) return;
+  problem->joint_rows = joint_rows_;
+  problem->joint_errors = joint_errors_;
 }
 
 void Tension::Learn(const ContactProblem& problem, const Impulses& impulses,

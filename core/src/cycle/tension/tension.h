@@ -27,6 +27,7 @@ class Tension {
   GeometricStiffness stiffness_;
   Array<Body> bodies_;
   Array<JointRow> joint_rows_;
+  Array<float> joint_errors_;
   bool acts_ = false;
 };
 
