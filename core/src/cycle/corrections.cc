@@ -37,15 +37,16 @@ class Motion {
   }
 
   double Along(const Joint& joint, const JointRow& row) const {
-    return Along(joint, row,
-                 [this](int body, const auto&... of_row) { return Along(body, of_row...); });
+    return SumOf(joint, row, [this](int body, const Vector3d& linear, const Vector3d& angular) {
+      return Along(body, linear, angular);
+    });
   }
 
   /// What of the free motion of the bodies a row of a joint does not work against.
   double Left(const Joint& joint, const JointRow& row) const {
     if (joint.damping == 1 || problem_.motions.empty()) return 0;
     const double free =
-        Along(joint, row, [this](int body, const Vector3d& linear, const Vector3d& angular) {
+        SumOf(joint, row, [this](int body, const Vector3d& linear, const Vector3d& angular) {
           if (body == kWorld) return 0.0;
           const ContactMotion& motion = problem_.motions[body];
           return linear.dot(FromFloats(motion.free_velocity)) +
@@ -56,7 +57,7 @@ class Motion {
 
  private:
   template <class Function>
-  static double Along(const Joint& joint, const JointRow& row, const Function& of_body) {
+  static double SumOf(const Joint& joint, const JointRow& row, const Function& of_body) {
     const Vector3d linear_a = FromFloats(row.linear_a);
     const Vector3d linear_b = joint.opposite ? Vector3d(-linear_a) : FromFloats(row.linear_b);
     return of_body(joint.body_a, linear_a, FromFloats(row.angular_a)) +
