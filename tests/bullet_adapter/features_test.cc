@@ -49,8 +49,8 @@ TEST(Features, JointFeedbackCarriesTheWeight) {
   EXPECT_NEAR(feedback.m_appliedForceBodyA.y(), 2 * kGravity, 1e-3);
 }
 
-// A kinematic body that moves, or what a body does itself, is no error, and nor is what a motor
-// without a limit asks for.
+// What a body does, be it one that no impulse moves, is no error, and nor is what a motor without a
+// limit asks for.
 TEST(Features, JointsTellWhatOfTheirTargetsTakesBackErrors) {
   bullet::ConstraintSolver solver;
   World world(&solver);

@@ -32,7 +32,7 @@ struct Recording {
   std::vector<TwistImpulse> twist_impulses;    ///< The start, one per twist.
   std::vector<Joint> joints;
   std::vector<JointRow> joint_rows;
-  std::vector<float> joint_errors;
+  std::vector<float> joint_errors;    ///< One per row of a joint, or none.
   std::vector<float> joint_impulses;  ///< The start, one per row of a joint.
   double time_step = 0;               ///< ContactProblem::time_step [s].
 
