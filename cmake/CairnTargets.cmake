@@ -55,7 +55,7 @@ endfunction()
 # which those that are not there are passed over. Files of one folder are compiled as one file, but where they reuse
 # names of helpers. With -DCMAKE_UNITY_BUILD=OFF each file is compiled alone; there an include that is missing is seen.
 set(CAIRN_UNTIMED $<$<NOT:$<OR:$<CONFIG:Debug>,$<CXX_COMPILER_ID:MSVC>>>:-O1>)
-set(CAIRN_ALONE "^(bench/(frames|scenes.*|worlds/conditions)|tests/(simd|core/(frame|lcp)|bench.*))$")
+set(CAIRN_ALONE "^(bench/(frames|scenes.*|worlds/conditions)|core/src/cholesky|tests/(simd|core/(frame|lcp)|bench.*))$")
 function(cairn_untimed)
   foreach(target ${ARGN})
     if(TARGET ${target})
@@ -151,6 +151,9 @@ function(cairn_library target alias)
     EXPORT_NAME ${alias} OUTPUT_NAME ${file} POSITION_INDEPENDENT_CODE ON
     VERSION ${PROJECT_VERSION} SOVERSION ${CAIRN_SOVERSION} DEFINE_SYMBOL "" INSTALL_RPATH "$ORIGIN")
   cairn_strict(${target})
+  if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+    cairn_by_folder(${target})  # nobody times it
+  endif()
   cairn_stays(${target})
   if(CAIRN_HIDES)
     cairn_show(${target} ${file})

@@ -10,10 +10,8 @@
 namespace cairn {
 namespace {
 
-/// As many one thread looks at at a time.
-constexpr int kPairsOfPart = 512;
-
-int KindOf(const Pair& pair) { return (pair.contact ? 2 : 0) + (pair.b == kWorld ? 1 : 0); }
+/// Colours of joints and of contacts, and of those with the world, are apart.
+int ColourKindOf(const Pair& pair) { return (pair.contact ? 2 : 0) + (pair.b == kWorld ? 1 : 0); }
 
 std::uint64_t HashOf(std::uint64_t a, std::uint64_t b, bool contact) {
   const std::uint64_t mixed = (a * 0x9e3779b97f4a7c15u) ^ ((b + contact) * 0xc2b2ae3d27d4eb4fu);
@@ -66,7 +64,7 @@ void Colouring::Occupy(const Pair& pair, int kind, int colour) {
 }
 
 bool Colouring::IsOfHub(const Pair& pair, int colours) const {
-  const int kind = KindOf(pair);
+  const int kind = ColourKindOf(pair);
   const auto is_hub = [&](int body) {
     return body != kWorld && std::popcount(masks_[body].used[kind]) >= colours;
   };
@@ -102,7 +100,7 @@ void Colouring::Colour(std::span<const Pair> pairs) {
   KeepKnown(pairs);
   // the new ones
   for (size_t i = 0; i < pairs.size(); ++i) {
-    const int kind = KindOf(pairs[i]);
+    const int kind = ColourKindOf(pairs[i]);
     if (colours_[i] < 0) {
       colours_[i] = Choose(pairs[i], kind);
       Occupy(pairs[i], kind, colours_[i]);
@@ -126,7 +124,7 @@ void Colouring::KeepKnown(std::span<const Pair> pairs) {
     before_[i] = known;
     expected = static_cast<size_t>(known) + 1;
     // unless two bodies swapped names, or can no longer move
-    const int kind = KindOf(pairs[i]), colour = known_[known].colour;
+    const int kind = ColourKindOf(pairs[i]), colour = known_[known].colour;
     if (Colour::IsOverflow(colour) || Colour::KindOf(colour) != kind) continue;
     const std::uint32_t bit = std::uint32_t{1} << Colour::PlaceOf(colour);
     const auto taken = [&](int body) { return body != kWorld && masks_[body].used[kind] & bit; };

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "plan/pairs.h"
 #include "runtime/in_parts.h"
 
 namespace cairn {
@@ -12,8 +13,6 @@ namespace {
 
 /// Moving single pairs pays while fewer than one in so many has moved.
 constexpr size_t kShareOfMoved = 8;
-/// As many one thread looks at at a time.
-constexpr int kPairsOfPart = 512;
 
 }  // namespace
 

@@ -14,6 +14,9 @@ namespace cairn {
 /// Where the numbers of rows come from.
 enum class RowSource : char { kRows, kJoint, kManifold };
 
+/// As many pairs one thread looks at at a time.
+inline constexpr int kPairsOfPart = 512;
+
 /// Bodies joined by rows: what one lane of a block holds.
 struct Pair {
   int a, b;          ///< bodies of the problem; b is kWorld unless both can move

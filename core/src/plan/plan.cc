@@ -36,8 +36,8 @@ bool IsLarge(const PlannedIsland& island) { return island.rows > Group::kSharedR
 /// but is done by one thread. Pairs with them have one of the first colours or none.
 constexpr int kHubOfSmall = 16, kHubOfLarge = 32, kColoursOfHub = 8;
 
-/// As many one thread has at a time while a plan is made.
-constexpr int kPairsOfPart = 512, kRunsOfPart = 64;
+/// As many runs one thread has at a time while a plan is made.
+constexpr int kRunsOfPart = 64;
 
 constexpr int kForms = 3;
 

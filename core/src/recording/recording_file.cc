@@ -8,15 +8,11 @@
 
 #include "cairn/detail/recording.h"
 #include "cairn/detail/whole_file.h"
+#include "recording/open_file.h"
 #include "recording/recording_format.h"
 
 namespace cairn {
 namespace {
-
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
 
 RecordingStatus Because(RecordingFault fault, const char* what) {
   return {fault, std::string(what) + ": " + std::strerror(errno)};
@@ -53,7 +49,7 @@ RecordingStatus Load(const std::string& path, Recording* recording) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return {RecordingFault::kCannotOpen, "cannot be opened: " + error.message()};
-  const File file(std::fopen(path.c_str(), "rb"));
+  const OpenFile file(std::fopen(path.c_str(), "rb"));
   if (!file) return Because(RecordingFault::kCannotOpen, "cannot be opened");
   std::vector<std::byte> bytes;
   if (RecordingStatus status = ReadBytes(file.get(), size, &bytes); !status.ok()) return status;

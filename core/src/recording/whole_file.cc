@@ -4,7 +4,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
+
+#include "recording/open_file.h"
 
 #if defined(_WIN32)
 #include <io.h>
@@ -16,11 +17,6 @@ namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
 
 std::error_code LastError() { return {errno != 0 ? errno : EIO, std::generic_category()}; }
 
@@ -53,7 +49,7 @@ bool ToDisk(std::FILE* file) {
 
 std::error_code Write(const fs::path& path, std::span<const std::byte> bytes) {
   errno = 0;
-  File file(std::fopen(path.string().c_str(), "wb"));
+  OpenFile file(std::fopen(path.string().c_str(), "wb"));
   if (!file) return LastError();
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   if (!written || !ToDisk(file.get())) return LastError();
@@ -80,7 +76,8 @@ std::error_code WriteWholeFile(const std::string& path, std::span<const std::byt
 std::error_code TryWholeFile(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) return std::make_error_code(std::errc::is_a_directory);
-  if (IsDevice(path)) return File(std::fopen(path.c_str(), "ab")) ? std::error_code() : LastError();
+  if (IsDevice(path))
+    return OpenFile(std::fopen(path.c_str(), "ab")) ? std::error_code() : LastError();
   const fs::path part = PartOf(TargetOf(path));
   const std::error_code failed = Write(part, {});
   fs::remove(part, error);

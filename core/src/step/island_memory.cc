@@ -22,7 +22,7 @@ constexpr double kTooMuch = 1e4;
 /// Where impulses stay below this share of the former for some steps, joints agree.
 constexpr double kCalm = 0.1;
 /// Steps after which it is asked again whether joints are redundant.
-constexpr int kMostPause = 3840;
+constexpr int kMostJointPause = 3840;
 /// What joints are softened to at most where they are redundant, or fling bodies.
 constexpr double kMostJointProximal = 1e-3;
 constexpr int kMostJointLevel = 4;
@@ -111,7 +111,7 @@ void IslandMemory::SawJoints(const StepResult& result) {
     // these joints carry much, or agree by now: asked again later, and ever later
     joint_level_ = calm_steps_ = 0;
     joint_pause_ = joint_pause_next_;
-    joint_pause_next_ = std::min(kMostPause, 2 * joint_pause_next_);
+    joint_pause_next_ = std::min(kMostJointPause, 2 * joint_pause_next_);
   }
 }
 

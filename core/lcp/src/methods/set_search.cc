@@ -27,7 +27,7 @@ constexpr double kAgreement = 0.01;
 /// ... after a step of at least this length.
 constexpr double kLongStep = 0.8;
 /// What another solve with a set that does not change any more has to leave of the residual.
-constexpr double kWorthwhile = 0.5;
+constexpr double kMostLeft = 0.5;
 
 /// Moves the rows that break their law on the face over to the other side. Returns how many.
 int Exchange(const BoxedLcp& problem, const Eigen::VectorXd& y, const Eigen::VectorXd& w,
@@ -85,7 +85,7 @@ int SetSearch::Pass(RowSet* set, Eigen::VectorXd* y) {
   const double residual = state_->Judge();
   if (changes == 0) {
     // the set is right, and solving once more has to be worth it
-    if (residual > kWorthwhile * settled_residual_) state_->End(StopReason::kStalled);
+    if (residual > kMostLeft * settled_residual_) state_->End(StopReason::kStalled);
     settled_residual_ = residual;
   }
   return changes;
