@@ -2,9 +2,13 @@
 #include "cairn/lcp/problem.h"
 
 namespace cairn::lcp {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+}  // namespace
 
 BoxedLcp ToBoxed(const MixedLcp& problem) {
-  using Matrix = Eigen::SparseMatrix<double>;
   using Eigen::Index;
   const Index n_a = problem.a.size(), n_b = problem.b.size();
   const Matrix c_transposed = problem.C.transpose();

@@ -24,9 +24,9 @@ double ExpMinusOneNearZero(double x) {
 }  // namespace
 
 double Log(double x) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (!(x > 0)) return x == 0 ? -kInfinity : std::numeric_limits<double>::quiet_NaN();
-  if (x == kInfinity) return x;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!(x > 0)) return x == 0 ? -infinity : std::numeric_limits<double>::quiet_NaN();
+  if (x == infinity) return x;
 
   // x = m 2^e with m in [sqrt(1/2), sqrt(2)): both are exact
   int e = 0;
