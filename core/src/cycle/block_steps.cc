@@ -245,6 +245,23 @@ void BlockSteps::FindBefore() {
 
 void BlockSteps::FindAfter() { FindMotions(1, &after_); }
 
+double BlockSteps::SpeedOfUnmoved(int island) const {
+  const Plan& plan = frame_->plan();
+  const Group& group = plan.groups()[plan.islands()[island].group];
+  double most = 0;
+  for (int b = group.first_block; b < group.first_block + group.blocks; ++b) {
+    for (int lane = 0; lane < plan.blocks()[b].lanes; ++lane) {
+      const Pair& pair = plan.pair(b, lane);
+      if (pair.b != kWorld || plan.island_of_body()[pair.a] != island) continue;
+      const int other = pair.row_a == pair.a ? pair.row_b : pair.row_a;
+      if (other == kWorld) continue;
+      const WhitenedBody& whitened = frame_->bodies()[other];
+      most = std::max(most, SeenFreeVelocity(*problem_, whitened, other).squaredNorm());
+    }
+  }
+  return std::sqrt(most);
+}
+
 IslandMemory* BlockSteps::MemoryOf(int island) {
   IslandMemory*& memory = memory_of_island_[island];
   if (memory == nullptr) {

@@ -96,6 +96,9 @@ class BlockSteps {
   /// Finds after() of every island.
   void FindAfter();
   const IslandMotion& after(int island) const { return after_[island]; }
+  /// How fast the fastest body that no impulse moves, and that touches or holds the island, moves
+  /// along [m/s]: it passes on its speed, too.
+  double SpeedOfUnmoved(int island) const;
   /// What was charged for it: its share of the group's, by rows.
   double work(int island) const { return work_[island]; }
   /// See IslandMemory::overshoots(). Contacts with one direction of friction do not.

@@ -237,6 +237,7 @@ void StepPlanner::Learn() {
     odds.EndFrame(islands_->StepsTaken(i) > 0 ? island.bodies : 0,
                   Largest((*islands_)[i].seen, UnitOf(frame_->settings)),
                   frame_->problem.time_step);
+    odds.EndSteps(islands_->report(i).steps_accepted > 0);
     if (!frame_->watches_gains()) continue;
     const int least = run.begin == 0 ? kLeastRun : kLeastRunAfterStep;
     const int sweeps = islands_->report(i).sweeps - run.begin;

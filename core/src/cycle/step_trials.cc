@@ -20,6 +20,7 @@ void StepTrials::Begin(const CycleFrame& frame, const Parts& parts) {
   chosen_.Begin(frame.plan());
   stepped_.clear();
   verdicts_.assign(frame.plan().islands().size(), Verdict::kKept);
+  manners_.assign(frame.plan().islands().size(), Manner::kWhole);
 }
 
 void StepTrials::Choose(std::span<const int> islands) {
@@ -40,6 +41,7 @@ void StepTrials::Take(std::span<const int> islands) {
   if (islands.empty()) return;
   stepped_.assign(islands.begin(), islands.end());
   Choose(stepped_);
+  Ease();
   if (IsGuarded(frame_->settings)) parts_.steps->FindBefore();
   Measure(&before_);
   merits_before_.Find(frame_->blocks, chosen_.groups());
@@ -52,7 +54,31 @@ void StepTrials::Take(std::span<const int> islands) {
     TakeOfGroup(group, all.subspan(begin, end - begin));
   }
   std::erase_if(stepped_, [this](int i) { return !(*parts_.islands)[i].stepped(); });
-  if (stepped_.empty()) frame_->meter->SetAside(0);
+  if (!stepped_.empty()) return;
+  frame_->meter->SetAside(0);
+  eased_.GiveBack(frame_->data());
+}
+
+void StepTrials::Ease() {
+  for (int i : stepped_) {
+    const StepOdds& odds = parts_.steps->odds(i);
+    const bool eases = frame_->weighs_steps() && parts_.steps->HasJoints(i);
+    manners_[i] = !eases                ? Manner::kWhole
+                  : odds.only_looks()   ? Manner::kLooks
+                  : !(odds.share() < 1) ? Manner::kWhole
+                                        : Manner::kEased;
+    if (manners_[i] == Manner::kEased) eased_.Ease(*frame_, i, odds.share());
+  }
+}
+
+void StepTrials::EndEasing() {
+  if (!eased_.any()) return;
+  eased_.GiveBack(frame_->data());
+  Choose(stepped_);
+  Measure(&alone_);
+  for (int i : stepped_) {
+    if (manners_[i] == Manner::kEased) (*parts_.islands)[i].seen = alone_[i];
+  }
 }
 
 void StepTrials::TakeOfGroup(int group, std::span<const int> islands) {
@@ -111,6 +137,16 @@ bool StepTrials::IsBetterAlone(int i) {
   return trial.is_better_alone();
 }
 
+bool StepTrials::IsFlung(int i, double error) const {
+  const BlockSteps& steps = *parts_.steps;
+  const double mass = steps.mass(i);
+  if (!cairn::IsFlung(steps.before(i), steps.after(i), mass, error)) return false;
+  // what a hook or a platform does, too, bodies may have taken over
+  const double driven = steps.SpeedOfUnmoved(i);
+  const IslandMotion with_it{driven, 0.5 * mass * driven * driven};
+  return cairn::IsFlung(LargerOf(steps.before(i), with_it), steps.after(i), mass, error);
+}
+
 void StepTrials::FindHarm() {
   merits_with_step_.Find(frame_->blocks, chosen_.groups());
   for (int i : stepped_) verdicts_[i] = Verdict::kKept;
@@ -129,8 +165,7 @@ void StepTrials::FindHarm() {
         !steps.HasJoints(i) && IsSqueezed({before_[i].energy, with_step_[i].energy, before, after});
     const bool harmful = squeezed || after.is_worse_than_none() ||
                          IsTooMuch(steps.result(i).joint_speed) ||
-                         IsTooViolent(before, after, steps.mass(i), error) ||
-                         IsFlung(steps.before(i), steps.after(i), steps.mass(i), error);
+                         IsTooViolent(before, after, steps.mass(i), error) || IsFlung(i, error);
     if (harmful) verdicts_[i] = Verdict::kHarmful;
   }
 }
@@ -153,6 +188,7 @@ void StepTrials::Judge(int sweeps) {
   } else if (!sure) {
     TryAlone(sweeps);
   }
+  EndEasing();
   for (int i : stepped_) Note(i, sweeps);
   stepped_.clear();
 }
@@ -173,7 +209,7 @@ void StepTrials::Note(int i, int sweeps) {
     report.guards.step = true;
     steps.Guarded(i);
   }
-  steps.Judge(i, accepted);
+  if (verdicts_[i] != Verdict::kSeen) steps.Judge(i, accepted);
   ++(accepted ? report.steps_accepted : report.steps_restored);
   islands[i].Judge();
 }
@@ -181,12 +217,15 @@ void StepTrials::Note(int i, int sweeps) {
 void StepTrials::LearnGains(int i) {
   BlockSteps& steps = *parts_.steps;
   StepOdds& odds = steps.odds(i);
+  // a part of the errors says nothing of what all of them take
+  if (manners_[i] == Manner::kEased) return;
   const bool paid = odds.pays();
   const bool needed = steps.IsNeeded(i);
   odds.LearnGains(GainOfStep(i), GainAlone(i), steps.SizeOf(i), needed);
   if (!frame_->weighs_steps() || verdicts_[i] != Verdict::kKept) return;
   const bool goes_on = paid || odds.pays() || needed;
   if (!goes_on) verdicts_[i] = Verdict::kBetterAlone;
+  if (goes_on && manners_[i] == Manner::kLooks) verdicts_[i] = Verdict::kSeen;
 }
 
 void StepTrials::CompareWithBefore() {

@@ -9,6 +9,7 @@
 #include "cycle/cycle_frame.h"
 #include "cycle/cycle_islands.h"
 #include "cycle/cycle_sweeps.h"
+#include "cycle/eased_targets.h"
 #include "cycle/step_planner.h"
 #include "pack/block_snapshot.h"
 #include "step/merit.h"
@@ -40,8 +41,15 @@ class StepTrials {
   void Judge(int sweeps);
 
  private:
-  enum class Verdict : char { kKept, kBetterAlone, kHarmful };
+  /// kSeen: it would be kept, were it not Manner::kLooks.
+  enum class Verdict : char { kKept, kBetterAlone, kHarmful, kSeen };
+  /// What a step takes back of the errors of joints, see StepOdds::share() and only_looks().
+  enum class Manner : char { kWhole, kEased, kLooks };
 
+  /// Finds manners, and eases targets where steps begin.
+  void Ease();
+  /// Targets are whole again, and so are residuals.
+  void EndEasing();
   void TakeOfGroup(int group, std::span<const int> islands);
   /// Residuals of the islands of the groups that are chosen.
   void Measure(Array<Residual>* residuals);
@@ -49,6 +57,8 @@ class StepTrials {
   /// Marks steps that put in energy, threw, flung or squeezed bodies, or left impulses that floats
   /// cannot hold.
   void FindHarm();
+  /// See IsFlung(): by impulses, not by a hook or a platform that moves.
+  bool IsFlung(int island, double error) const;
   /// It has joints, and had no step of late.
   bool Begins(int island);
   /// A step did so much that sweeps alone need not be tried.
@@ -84,9 +94,11 @@ class StepTrials {
   GroupChoice chosen_;
   Array<int> stepped_;
   Array<Verdict> verdicts_;                                      ///< by island
+  Array<Manner> manners_;                                        ///< likewise
   Array<Residual> seen_with_step_, before_, with_step_, alone_;  ///< by island
   IslandMerits merits_before_, merits_with_step_, merits_alone_;
   BlockSnapshot before_steps_, after_steps_;
+  EasedTargets eased_;
 };
 
 }  // namespace cairn

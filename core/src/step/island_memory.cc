@@ -123,7 +123,8 @@ void IslandMemory::Guarded() {
 }
 
 void IslandMemory::Restored() {
-  pause_ = std::min(kLongestPause, 1 << std::min(strikes_, 5));
+  const bool among_many = stepping_ == kMostStepping;
+  pause_ = among_many ? 0 : std::min(kLongestPause, 1 << std::min(strikes_, 5));
   ++strikes_;
   softening_ = std::min(kMostSoftening, softening_ * 5);
   least_ = std::min(1.0, softening_);

@@ -33,6 +33,8 @@ class IslandMemory : public detail::Placed {
   static constexpr double kLeastSoftening = 1.0 / 4;
   /// @param least  factor on Tuning::proximal that successes bring it down to, > 0
   void Accepted(double least = kLeastSoftening);
+  /// A step was undone: the next ones are passed over, more each time. The first one among many
+  /// that were kept is tried again at once: sweeps alone would let go what those held.
   void Restored();
   /// A guard undid something here: sweeps only for a while, longer each time that it happens again.
   /// From the third in a row on joints are softened, too, until some steps were kept.

@@ -112,6 +112,19 @@ void StepOdds::EndFrame(int stepped_bodies, double error, double time_step) {
   later_.cut += kFade * (kLater * expected_ - later_.cut);
 }
 
+void StepOdds::EndSteps(bool kept) {
+  plain_frames_ = kept ? 0 : std::min(plain_frames_ + 1, kEased);
+  if (kept) {
+    eased_frames_ = std::min(eased_frames_ + 1, kEased);
+  } else if (!is_young() && plain_frames_ == kEased) {
+    eased_frames_ = 0;
+  }
+}
+
+double StepOdds::share() const {
+  return only_looks() ? 1 : std::min(1.0, (eased_frames_ + 1.0) / kEased);
+}
+
 bool StepOdds::stale() const { return age_ >= (power_known_ ? kMeasureAgain : 1); }
 
 }  // namespace cairn

@@ -15,6 +15,9 @@ class StepOdds {
   static constexpr int kFewBodies = 20;
   /// And of so many tiny: all else there takes longer than the sweeps of sequential impulses.
   static constexpr int kFewestBodies = 5;
+  /// After so many frames of sweeps alone, over so many steps joints come to take back all of their
+  /// errors. Loads that fall do not wait: steps that pause for a frame or two go on as before.
+  static constexpr int kEased = 8;
   /// Islands by how many bodies they have; kMany, too, where there are joints.
   enum class Size { kMany, kFew, kFewest };
 
@@ -43,6 +46,14 @@ class StepOdds {
   bool stepped_most(int bodies) const {
     return 4 * static_cast<std::int64_t>(bodies) <= 5 * static_cast<std::int64_t>(stepped_bodies_);
   }
+  /// How much of the errors of joints the next step is to take back, in (0, 1]: an nth more in each
+  /// of the first n steps, see kEased. All of it where an island is young.
+  double share() const;
+  /// The next step finds out whether steps pay, with all that targets ask for, and is not kept: it
+  /// would take back all errors at once.
+  bool only_looks() const { return eased_frames_ == 0 && wants_trial(); }
+  /// Ends a frame for share(). @p kept: a step was
+  void EndSteps(bool kept);
   /// Whether a step pays is not known, or was not looked at for a while.
   bool wants_trial() const { return trial_age_ >= trial_pause_; }
   /// The last time that both were tried, sweeps came nowhere near: one step is worth its price.
@@ -94,6 +105,8 @@ class StepOdds {
   bool carries_ = false;
   bool pays_ = true;
   int stepped_bodies_ = 0, frames_without_ = kLate;
+  int plain_frames_ = 0;       ///< in a row in which no step was kept; at most kEased
+  int eased_frames_ = kEased;  ///< in which one was since kEased plain ones; at most kEased
   /// In a row, of those without a step; at most kGrossFrames and kRoughFrames.
   int gross_frames_ = 0, rough_frames_ = 0;
   /// Logarithm of the gain of steps over that of the sweeps in their place: mean that forgets.

@@ -21,19 +21,46 @@ void Keep(IslandMemory* memory, int steps) {
   for (int i = 0; i < steps; ++i) memory->Accepted();
 }
 
+/// How often it is not due.
+int Pause(IslandMemory* memory) {
+  int left_out = 0;
+  while (!memory->Due(kSettings)) ++left_out;
+  return left_out;
+}
+
 TEST(IslandMemory, LeavesStepsOutAfterAGuardForLongerEachTime) {
   IslandMemory memory;
   const auto pause = [&memory] {
     memory.Guarded();
-    int left_out = 0;
-    while (!memory.Due(kSettings)) ++left_out;
-    return left_out;
+    return Pause(&memory);
   };
   const int first = pause(), second = pause();
   EXPECT_GT(first, 0);
   EXPECT_EQ(second, 2 * first);
   memory.Accepted();
   EXPECT_EQ(pause(), first);
+}
+
+// Sweeps alone would let go what it held for many frames, and the next step catch it with a jerk.
+TEST(IslandMemory, TriesAtOnceAgainWhereOneStepAmongManyIsLost) {
+  constexpr int kMany = 8;
+  IslandMemory memory;
+  const auto end = [&memory](bool kept) {
+    if (kept) {
+      memory.Accepted();
+    } else {
+      memory.Restored();
+    }
+    memory.EndSolve(kept, true);
+  };
+  for (int i = 0; i < kMany - 1; ++i) end(true);
+  end(false);
+  EXPECT_EQ(Pause(&memory), 1) << "not many yet";
+  for (int i = 0; i < kMany; ++i) end(true);
+  end(false);
+  EXPECT_EQ(Pause(&memory), 0);
+  end(false);
+  EXPECT_EQ(Pause(&memory), 2) << "twice in a row";
 }
 
 // A taut bridge that has opened closes by being flung, as long as its pins are hard.

@@ -236,5 +236,34 @@ TEST(StepOdds, FindThePowerOfSweeps) {
   EXPECT_TRUE(std::isinf(StepOdds::PowerOf(3, 10, std::nan("")))) << "0 of 0";
 }
 
+/// Frames that kept a step, or did not.
+void EndFrames(int frames, bool kept, StepOdds* odds) {
+  for (int i = 0; i < frames; ++i) {
+    odds->EndFrame(kept ? 1 : 0);
+    odds->EndSteps(kept);
+  }
+}
+
+TEST(StepOdds, EasesStepsAfterManyFramesOfSweepsAlone) {
+  constexpr int kMany = StepOdds::kEased;
+  StepOdds odds;
+  EndFrames(kMany - 1, false, &odds);
+  EXPECT_EQ(odds.share(), 1) << "it is young";
+  EndFrames(1, true, &odds);
+  EndFrames(kMany - 1, false, &odds);
+  EXPECT_EQ(odds.share(), 1) << "a pause is no rest";
+  EndFrames(1, false, &odds);
+  EXPECT_TRUE(odds.only_looks());
+  EXPECT_EQ(odds.share(), 1);
+  odds.LearnGains(1, 0.1);
+  EXPECT_FALSE(odds.only_looks());
+  for (int i = 1; i <= kMany; ++i) {
+    EXPECT_EQ(odds.share(), i / 8.0);
+    EndFrames(1, true, &odds);
+    EndFrames(2, false, &odds);
+  }
+  EXPECT_EQ(odds.share(), 1);
+}
+
 }  // namespace
 }  // namespace cairn
