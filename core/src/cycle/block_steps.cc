@@ -245,6 +245,18 @@ void BlockSteps::FindBefore() {
 
 void BlockSteps::FindAfter() { FindMotions(1, &after_); }
 
+double BlockSteps::SpinEnergy(int island, double share) const {
+  const Plan& plan = frame_->plan();
+  double energy = 0;
+  for (int i = 0; i < static_cast<int>(problem_->bodies.size()); ++i) {
+    if (plan.island_of_body()[i] != island) continue;
+    const float* const u = frame_->blocks().bodies[plan.slot_of_body()[i]].u;
+    const Eigen::Vector3d spin = WhitenedFreeSpin(*problem_, frame_->bodies()[i], i);
+    energy += 0.5 * (spin + share * Eigen::Vector3d(u[3], u[4], u[5])).squaredNorm();
+  }
+  return energy;
+}
+
 double BlockSteps::SpeedOfUnmoved(int island) const {
   const Plan& plan = frame_->plan();
   const Group& group = plan.groups()[plan.islands()[island].group];

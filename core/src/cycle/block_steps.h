@@ -96,6 +96,8 @@ class BlockSteps {
   /// Finds after() of every island.
   void FindAfter();
   const IslandMotion& after(int island) const { return after_[island]; }
+  /// Of the spins of its bodies with this share of their impulses [J].
+  double SpinEnergy(int island, double share) const;
   /// How fast the fastest body that no impulse moves, and that touches or holds the island, moves
   /// along [m/s]: it passes on its speed, too.
   double SpeedOfUnmoved(int island) const;

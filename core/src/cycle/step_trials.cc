@@ -133,7 +133,8 @@ bool StepTrials::IsBetterAlone(int i) {
   const StepTrial trial{.with_step = with_step_[i].energy,
                         .alone = alone_[i].energy,
                         .lead = GainOfStep(i) - GainAlone(i),
-                        .begins = Begins(i)};
+                        .begins = Begins(i),
+                        .strained = parts_.steps->IsStrained(i)};
   return trial.is_better_alone();
 }
 
@@ -145,6 +146,12 @@ bool StepTrials::IsFlung(int i, double error) const {
   const double driven = steps.SpeedOfUnmoved(i);
   const IslandMotion with_it{driven, 0.5 * mass * driven * driven};
   return cairn::IsFlung(LargerOf(steps.before(i), with_it), steps.after(i), mass, error);
+}
+
+bool StepTrials::Catches(int i) const {
+  const BlockSteps& steps = *parts_.steps;
+  return steps.IsStrained(i) &&
+         !IsFaster(steps.before(i), steps.SpinEnergy(i, 0), steps.after(i), steps.SpinEnergy(i, 1));
 }
 
 void StepTrials::FindHarm() {
@@ -163,9 +170,9 @@ void StepTrials::FindHarm() {
     }
     const bool squeezed =
         !steps.HasJoints(i) && IsSqueezed({before_[i].energy, with_step_[i].energy, before, after});
+    const bool thrown = IsTooViolent(before, after, steps.mass(i), error) && !Catches(i);
     const bool harmful = squeezed || after.is_worse_than_none() ||
-                         IsTooMuch(steps.result(i).joint_speed) ||
-                         IsTooViolent(before, after, steps.mass(i), error) || IsFlung(i, error);
+                         IsTooMuch(steps.result(i).joint_speed) || thrown || IsFlung(i, error);
     if (harmful) verdicts_[i] = Verdict::kHarmful;
   }
 }

@@ -59,6 +59,8 @@ class StepTrials {
   void FindHarm();
   /// See IsFlung(): by impulses, not by a hook or a platform that moves.
   bool IsFlung(int island, double error) const;
+  /// It is under strain, and its step made nothing faster: see IsFaster().
+  bool Catches(int island) const;
   /// It has joints, and had no step of late.
   bool Begins(int island);
   /// A step did so much that sweeps alone need not be tried.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "problem/whitening.h"
 
+#include <Eigen/QR>
 #include <cmath>
 
 #include "problem/validate.h"
@@ -27,6 +28,15 @@ Eigen::Vector3d SeenFreeVelocity(const ContactProblem& problem, const WhitenedBo
                                  int body) {
   if (problem.motions.empty()) return View(whitened.free.linear);
   return Eigen::Map<const Eigen::Vector3f>(problem.motions[body].free_velocity).cast<double>();
+}
+
+Eigen::Vector3d WhitenedFreeSpin(const ContactProblem& problem, const WhitenedBody& whitened,
+                                 int body) {
+  Eigen::Vector3d spin = View(whitened.free.angular);
+  if (!problem.motions.empty()) {
+    spin = Eigen::Map<const Eigen::Vector3f>(problem.motions[body].free_spin).cast<double>();
+  }
+  return whitened.angular.completeOrthogonalDecomposition().solve(spin);
 }
 
 Velocity Unwhiten(const WhitenedBody& body, const Eigen::Vector3d& linear,

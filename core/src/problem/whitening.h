@@ -28,6 +28,11 @@ bool Whiten(const Body& body, WhitenedBody* whitened);
 Eigen::Vector3d SeenFreeVelocity(const ContactProblem& problem, const WhitenedBody& whitened,
                                  int body);
 
+/// How joints and contacts see a body spin without impulses, whitened: half its square is the
+/// energy of that. Without what locks keep from changing.
+Eigen::Vector3d WhitenedFreeSpin(const ContactProblem& problem, const WhitenedBody& whitened,
+                                 int body);
+
 /// The velocity that u changes a body to.
 Velocity Unwhiten(const WhitenedBody& body, const Eigen::Vector3d& linear,
                   const Eigen::Vector3d& angular);

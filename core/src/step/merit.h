@@ -37,16 +37,18 @@ struct StepTrial {
   double with_step, alone;  ///< Residual::energy
   double lead;              ///< By how much phi is lower with the step [J]; above 0 it is closer.
   bool begins = false;      ///< The island has joints, and had no step of late.
+  bool strained = false;    ///< Joints of it pull hard: BlockSteps::IsStrained().
 
   /// Residuals see how rough a step leaves an island, and not how far it is from its solution. They
   /// decide where phi cannot: redundant rows that contradict each other lower it the larger they
   /// get. What is not a number is not kept. Sweeps that begin from nothing soon leave small
-  /// residuals, and a taut bridge that falls as a whole: there the lead of a step is far more than
-  /// what is rough could take back. A step that falls that far behind throws such a bridge.
+  /// residuals, and a taut bridge that falls as a whole, and so do those of a bridge under strain:
+  /// there the lead of a step is far more than what is rough could take back. A step that falls
+  /// that far behind where it begins throws such a bridge.
   bool is_better_alone() const {
     const bool far_behind = begins && -lead > kFarAhead * alone * alone;
     if (far_behind) return true;
-    const bool far_ahead = begins && lead > kFarAhead * with_step * with_step;
+    const bool far_ahead = (begins || strained) && lead > kFarAhead * with_step * with_step;
     const bool closer = lead > 0 && (with_step <= kMostRoughness * alone || far_ahead);
     return !(with_step <= alone) && !closer;
   }
@@ -87,6 +89,19 @@ struct IslandMotion {
 
 inline IslandMotion LargerOf(const IslandMotion& a, const IslandMotion& b) {
   return {std::max(a.speed, b.speed), std::max(a.energy, b.energy)};
+}
+
+/// Bodies are faster by a quarter, or have as much more energy, that of their spins included. A
+/// step on a taut bridge that sags may do far more than errors call for, since sweeps leave small
+/// errors there, far from the solution. Where bodies are no faster it caught the bridge, and threw
+/// nothing.
+/// @param spin_before, spin_after  energy of spins [J], before without impulses
+inline bool IsFaster(const IslandMotion& before, double spin_before, const IslandMotion& after,
+                     double spin_after) {
+  constexpr double kMuch = 1.25;
+  const bool calm = after.speed <= kMuch * before.speed &&
+                    after.energy + spin_after <= kMuch * (before.energy + spin_before);
+  return !calm;
 }
 
 /// Whether a step flung bodies off. @p before: the island without impulses, or with those before

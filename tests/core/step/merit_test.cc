@@ -139,9 +139,9 @@ TEST(Merit, BoundsTheEnergyFromTheProblemAlone) {
 }
 
 TEST(StepTrial, IsWonByWhatIsLessRoughOrSurelyCloser) {
-  const auto alone_is_better = [](double with_step, double alone, double lead,
-                                  bool begins = false) {
-    return StepTrial{with_step, alone, lead, begins}.is_better_alone();
+  const auto alone_is_better = [](double with_step, double alone, double lead, bool begins = false,
+                                  bool strained = false) {
+    return StepTrial{with_step, alone, lead, begins, strained}.is_better_alone();
   };
   EXPECT_FALSE(alone_is_better(0.1, 0.2, -1)) << "where phi cannot tell";
   EXPECT_TRUE(alone_is_better(0.2, 0.1, -1));
@@ -151,12 +151,22 @@ TEST(StepTrial, IsWonByWhatIsLessRoughOrSurelyCloser) {
   EXPECT_FALSE(alone_is_better(0.14, 0.03, 1.1, true));
   EXPECT_TRUE(alone_is_better(0.14, 0.03, 1.1, false)) << "joints that contradict each other?";
   EXPECT_TRUE(alone_is_better(0.14, 0.03, 0.1, true));
+  EXPECT_FALSE(alone_is_better(0.14, 0.03, 1.1, false, true));
   // a bridge at rest that a step throws: a little less rough, and far behind
   EXPECT_TRUE(alone_is_better(7e-4, 1e-3, -7.6, true));
   EXPECT_FALSE(alone_is_better(7e-4, 1e-3, -1e-6, true));
-  EXPECT_FALSE(alone_is_better(7e-4, 1e-3, -7.6, false));
+  EXPECT_FALSE(alone_is_better(7e-4, 1e-3, -7.6, false, true));
   EXPECT_TRUE(alone_is_better(std::nan(""), 0.1, 1));
   EXPECT_TRUE(alone_is_better(0.2, 0.1, std::nan("")));
+}
+
+TEST(IsFaster, IsWhatHasMoreSpeedOrEnergyOrSpin) {
+  const IslandMotion before{.speed = 2, .energy = 10};
+  EXPECT_FALSE(IsFaster(before, 1, {.speed = 2.4, .energy = 11}, 2));
+  EXPECT_TRUE(IsFaster(before, 1, {.speed = 2.6, .energy = 5}, 1)) << "one of many bodies";
+  EXPECT_TRUE(IsFaster(before, 1, {.speed = 2, .energy = 14}, 0));
+  EXPECT_TRUE(IsFaster(before, 1, {.speed = 2, .energy = 10}, 4));
+  EXPECT_TRUE(IsFaster(before, 1, {.speed = std::nan(""), .energy = 10}, 1));
 }
 
 TEST(Guards, ScaleAStartThatIsWorseThanNone) {
